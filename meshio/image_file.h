@@ -1,0 +1,49 @@
+/* Images written as OpenEXR (named float planes) and PNG (8 bit), and planes of an OpenEXR read back. The same input gives the same bytes.
+ * The function says the format, not the extension of the path, so that a caller can write under a temporary name. */
+#ifndef MESHIO_IMAGE_FILE_H
+#define MESHIO_IMAGE_FILE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A string stored in the image under a key. `DateTime` (`1987:06:24 15:00:00`) is stored only when the caller gives it. */
+typedef struct image_text {
+    const char *key, *value;
+} image_text;
+
+/* What both formats share; rows run from the top, columns from the left. */
+typedef struct image_frame {
+    uint32_t width, height;
+    const image_text *text; /* shape (text_count) */
+    size_t text_count;
+} image_frame;
+
+typedef struct image_channel {
+    const char *name;   /* readers see the channels sorted by name */
+    const float *value; /* shape (height, width) */
+} image_channel;
+
+typedef enum image_compression { IMAGE_NONE, IMAGE_ZIP } image_compression;
+
+/* Writes the channels, float32 and exact, under their names (each once).
+ * Returns 0, or non-zero with `path: ...`: cannot be created, disk full, no channels, a name given twice. What was written then remains. */
+int image_file_write_exr(const char *path, const image_frame *frame, const image_channel *channel, size_t channel_count,
+                         image_compression compression, char *message, size_t message_size);
+
+/* Writes 8-bit RGB, shape (height, width, 3). Fails as image_file_write_exr does. */
+int image_file_write_png(const char *path, const image_frame *frame, const uint8_t *rgb, char *message, size_t message_size);
+
+/* Reads the channel called `name` of an OpenEXR file.
+ *   out   shape (height, width), released by the caller with free()
+ * Returns 0, or non-zero with `path: ...`: no such file, no such channel, damaged. */
+int image_file_read_channel(float **out, uint32_t *out_width, uint32_t *out_height, const char *path, const char *name, char *message,
+                            size_t message_size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
