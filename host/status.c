@@ -1,0 +1,66 @@
+#include "status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MESSAGE_SIZE = 65536 };
+
+static _Thread_local char message[MESSAGE_SIZE];
+static _Thread_local size_t kept_length;
+static _Thread_local char warnings[2][MESSAGE_SIZE];
+static _Thread_local int warnings_now;
+
+status status_set(status code, const char *format, ...)
+{
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(message + kept_length, sizeof message - kept_length, format, arguments);
+    va_end(arguments);
+    return code;
+}
+
+const char *status_message(void)
+{
+    return message;
+}
+
+status status_keep(status code)
+{
+    const size_t length = strlen(message);
+
+    if (length > kept_length && length + 2 < sizeof message) {
+        message[length] = '\n';
+        message[length + 1] = '\0';
+        kept_length = length + 1;
+    }
+    return code;
+}
+
+void status_clear(void)
+{
+    message[0] = '\0';
+    kept_length = 0;
+}
+
+void status_warn(const char *format, ...)
+{
+    char *text = warnings[warnings_now];
+    const size_t length = strlen(text);
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(text + length, sizeof warnings[0] - length - 1, format, arguments);
+    va_end(arguments);
+    strcat(text, "\n");
+}
+
+const char *status_warnings(void)
+{
+    const char *text = warnings[warnings_now];
+
+    warnings_now = !warnings_now;
+    warnings[warnings_now][0] = '\0';
+    return text;
+}

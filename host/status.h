@@ -1,0 +1,49 @@
+/* Status: how a function of the host tells that it failed, and why. */
+#ifndef STATUS_H
+#define STATUS_H
+
+typedef enum status {
+    STATUS_OK,
+    STATUS_MEMORY,
+    STATUS_FILE,     /* a file cannot be opened, read or written */
+    STATUS_FORMAT,   /* a file holds what it must not hold */
+    STATUS_ARGUMENT, /* a value is out of its range */
+    STATUS_DEVICE,   /* OpenCL failed */
+    STATUS_INTERRUPTED
+} status;
+
+/* Stores the message of this thread and returns the code. */
+__attribute__((format(printf, 2, 3))) status status_set(status code, const char *format, ...);
+
+/* Text of the last failure of this thread; several failures stand on lines of their own. */
+const char *status_message(void);
+
+/* Keeps the present message: the next failure of this thread is added below it. Returns code.
+ * For readers that go on after an error to find the next one. */
+status status_keep(status code);
+
+/* Forgets the message and what was kept. */
+void status_clear(void);
+
+/* Adds a line to the warnings of this thread; for input that is odd but usable. */
+__attribute__((format(printf, 1, 2))) void status_warn(const char *format, ...);
+
+/* The warnings since the last call, a line each, and forgets them; valid until the next call. */
+const char *status_warnings(void);
+
+/* Both need a local `status rc` and a label `out`. */
+#define NEED(condition, code, ...)                                                                 \
+    do {                                                                                           \
+        if (!(condition)) {                                                                        \
+            rc = status_set(code, __VA_ARGS__);                                                    \
+            goto out;                                                                              \
+        }                                                                                          \
+    } while (0)
+
+#define TRY(call)                                                                                  \
+    do {                                                                                           \
+        rc = (call);                                                                               \
+        if (rc != STATUS_OK) goto out;                                                             \
+    } while (0)
+
+#endif

@@ -1,0 +1,25 @@
+/* Dialect: lets one header compile as OpenCL C 1.2, C11 and C++17. Every other kernels/ header
+ * includes it first. */
+#ifndef DIALECT_H
+#define DIALECT_H
+
+#ifdef __OPENCL_C_VERSION__
+
+#pragma OPENCL FP_CONTRACT OFF
+#define RECORD_SIZE(type, bytes) typedef char type##_size[sizeof(type) == (bytes) ? 1 : -1]
+
+#else
+
+#include <stdint.h>
+#ifdef __cplusplus
+#include <cmath>
+#define RECORD_SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type)
+#else
+#include <tgmath.h>
+#define RECORD_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)
+#endif
+typedef uint32_t uint;
+
+#endif
+
+#endif

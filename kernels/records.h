@@ -1,0 +1,99 @@
+/* Records that host and device share: the same bytes in C11, C++17, OpenCL C and numpy.
+ * Scalars and arrays of scalars only; lengths m, angles rad, temperatures K unless a name says more.
+ * Positions are in the scene's ENU frame (x east, y north, z up) minus the geometry's origin. */
+#ifndef RECORDS_H
+#define RECORDS_H
+
+#include "dialect.h"
+
+/* Index of "no facet" and "no material". */
+#define RECORD_NONE 0xffffffffu
+
+/* A node of the flattened tree; 64-byte aligned.
+ *   low, high   boxes of the 8 children, axis by axis; an empty child has low 1e30, high -1e30
+ *   child       bit 31: leaf, then first block << 4 | block count; else the index of a node
+ *   order       per octant of the ray direction (bit 0 x, 1 y, 2 z negative): children near to far,
+ *               4 bits each, the nearest in the lowest */
+typedef struct bvh_node {
+    float low[3][8];
+    float high[3][8];
+    uint child[8];
+    uint order[8];
+} bvh_node;
+RECORD_SIZE(bvh_node, 256);
+
+#define BVH_LEAF 0x80000000u
+
+/* Eight triangles of a leaf; 64-byte aligned. A quad is two triangles with the same facet.
+ *   vertex   shape (vertex 0..2, axis, lane)
+ *   facet    index of the facet, RECORD_NONE pads */
+typedef struct bvh_block {
+    float vertex[3][3][8];
+    uint facet[8];
+} bvh_block;
+RECORD_SIZE(bvh_block, 320);
+
+/* What a ray met. */
+typedef struct hit_record {
+    float point[3];  /* on the facet, from barycentrics */
+    float range_m;   /* along the ray in lengths of its direction; INFINITY for a miss */
+    uint facet;      /* index of the facet or RECORD_NONE */
+    float normal[3]; /* unit, turned towards the ray's origin */
+} hit_record;
+RECORD_SIZE(hit_record, 32);
+
+/* A facet as thermal and radiometry see it. */
+typedef struct facet_record {
+    float normal[3];           /* unit, outward */
+    uint material;             /* index of the material */
+    float slope_rad;           /* 0 level and facing up, pi facing down */
+    float azimuth_rad;         /* of the normal, clockwise from north, 0 .. 2 pi */
+    float thickness_m;
+    float power_w_m2;          /* self-generated */
+    float stated_temperature_k; /* 0: to be computed */
+    uint two_sided;            /* 1: both sides are seen and lit */
+    uint unused[2];
+} facet_record;
+RECORD_SIZE(facet_record, 48);
+
+/* A material as thermal and radiometry see it. */
+typedef struct material_record {
+    float density_kg_m3;
+    float specific_heat_j_kg_k;
+    float conductivity_w_m_k;
+    float solar_absorptance;
+    float thermal_emissivity;
+    float exposed_area;          /* |A|: exposed share of both sides; negative: conductive slab */
+    float specular_share;        /* 0 diffuse .. 1 specular */
+    uint emissivity_first;       /* first row of the material in the emissivity table */
+    uint emissivity_angles;      /* rows: 91 (0..90 degrees) or 1 (the same at all angles) */
+    uint number;                 /* material code as written in planes */
+    uint unused[2];
+} material_record;
+RECORD_SIZE(material_record, 48);
+
+/* One step of the weather as the thermal model uses it. */
+typedef struct forcing_record {
+    float air_temperature_k;
+    float sky_longwave_w_m2;    /* downwelling on a level plane under an open sky */
+    float convection_w_m2_k;
+    float direct_w_m2;          /* sun, normal to the beam; 0 below the horizon */
+    float diffuse_w_m2;         /* sky, on a level plane */
+    float sun[3];               /* unit vector towards the sun */
+    float rain_w_m2_k;          /* rho_w c_w R: heat that rain brings per kelvin */
+    float rain_temperature_k;
+    float unused[2];
+} forcing_record;
+RECORD_SIZE(forcing_record, 48);
+
+/* Pinhole camera: ray of pixel (column, row) from its centre, row 0 on top:
+ *   direction = corner + (column + .5) across + (row + .5) down, then normalised. */
+typedef struct camera_record {
+    float position[3];
+    float corner[3];
+    float across[3];
+    float down[3];
+} camera_record;
+RECORD_SIZE(camera_record, 48);
+
+#endif
