@@ -30,8 +30,8 @@ status device_open(device **out, int index);
 void device_free(device *dev);
 const device_info *device_describe(const device *dev);
 
-/* Allocates device memory, filled from `initial` unless that is NULL. Fails with STATUS_MEMORY where
- * the device has no room. */
+/* Allocates device memory, filled from `initial` unless that is NULL. Fails with STATUS_MEMORY
+ * where the device has no room. */
 status device_allocate(device *dev, device_memory *out, size_t bytes, const void *initial);
 void device_release(device_memory memory);
 

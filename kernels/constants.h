@@ -7,12 +7,12 @@
 #define ZERO_CELSIUS_K 273.15f           /* K */
 
 /* Planck's law per micrometre: B = FIRST / (l^5 (exp(SECOND / (l T)) - 1)), l in um, T in K. */
-#define PLANCK_FIRST 1.191042972397188e8  /* 2 h c^2, W um4 m-2 sr-1 */
-#define PLANCK_SECOND 1.438776877e4       /* h c / k, um K */
+#define PLANCK_FIRST 1.191042972397188e8 /* 2 h c^2, W um4 m-2 sr-1 */
+#define PLANCK_SECOND 1.438776877e4      /* h c / k, um K */
 
 /* The same with the constants that the thesis prints below eq. 2.4-5: c 2.99792458e10 cm/s,
  * h 6.626176e-34 J s, k 1.380662e-23 J/K. */
-#define PLANCK_FIRST_THESIS 1.191061999044322e8 /* W um4 m-2 sr-1 */
+#define PLANCK_FIRST_THESIS 1.191061999044322e8  /* W um4 m-2 sr-1 */
 #define PLANCK_SECOND_THESIS 1.438786314232309e4 /* um K */
 
 #define SOLAR_CONSTANT_W_M2 1367.0f /* World Radiation Centre 1981, as the thesis' time used it */

@@ -1,6 +1,7 @@
 /* Records that host and device share: the same bytes in C11, C++17, OpenCL C and numpy.
- * Scalars and arrays of scalars only; lengths m, angles rad, temperatures K unless a name says more.
- * Positions are in the scene's ENU frame (x east, y north, z up) minus the geometry's origin. */
+ * Scalars and arrays of scalars only; lengths m, angles rad, temperatures K unless a name says
+ * more. Positions are in the scene's ENU frame (x east, y north, z up) minus the geometry's origin.
+ */
 #ifndef RECORDS_H
 #define RECORDS_H
 
@@ -44,14 +45,14 @@ RECORD_SIZE(hit_record, 32);
 
 /* A facet as thermal and radiometry see it. */
 typedef struct facet_record {
-    float normal[3];           /* unit, outward */
-    uint material;             /* index of the material */
-    float slope_rad;           /* 0 level and facing up, pi facing down */
-    float azimuth_rad;         /* of the normal, clockwise from north, 0 .. 2 pi */
+    float normal[3];   /* unit, outward */
+    uint material;     /* index of the material */
+    float slope_rad;   /* 0 level and facing up, pi facing down */
+    float azimuth_rad; /* of the normal, clockwise from north, 0 .. 2 pi */
     float thickness_m;
-    float power_w_m2;          /* self-generated */
+    float power_w_m2;           /* self-generated */
     float stated_temperature_k; /* 0: to be computed */
-    uint two_sided;            /* 1: both sides are seen and lit */
+    uint two_sided;             /* 1: both sides are seen and lit */
     uint unused[2];
 } facet_record;
 RECORD_SIZE(facet_record, 48);
@@ -63,11 +64,11 @@ typedef struct material_record {
     float conductivity_w_m_k;
     float solar_absorptance;
     float thermal_emissivity;
-    float exposed_area;          /* |A|: exposed share of both sides; negative: conductive slab */
-    float specular_share;        /* 0 diffuse .. 1 specular */
-    uint emissivity_first;       /* first row of the material in the emissivity table */
-    uint emissivity_angles;      /* rows: 91 (0..90 degrees) or 1 (the same at all angles) */
-    uint number;                 /* material code as written in planes */
+    float exposed_area;     /* |A|: exposed share of both sides; negative: conductive slab */
+    float specular_share;   /* 0 diffuse .. 1 specular */
+    uint emissivity_first;  /* first row of the material in the emissivity table */
+    uint emissivity_angles; /* rows: 91 (0..90 degrees) or 1 (the same at all angles) */
+    uint number;            /* material code as written in planes */
     uint unused[2];
 } material_record;
 RECORD_SIZE(material_record, 48);
@@ -75,12 +76,12 @@ RECORD_SIZE(material_record, 48);
 /* One step of the weather as the thermal model uses it. */
 typedef struct forcing_record {
     float air_temperature_k;
-    float sky_longwave_w_m2;    /* downwelling on a level plane under an open sky */
+    float sky_longwave_w_m2; /* downwelling on a level plane under an open sky */
     float convection_w_m2_k;
-    float direct_w_m2;          /* sun, normal to the beam; 0 below the horizon */
-    float diffuse_w_m2;         /* sky, on a level plane */
-    float sun[3];               /* unit vector towards the sun */
-    float rain_w_m2_k;          /* rho_w c_w R: heat that rain brings per kelvin */
+    float direct_w_m2;  /* sun, normal to the beam; 0 below the horizon */
+    float diffuse_w_m2; /* sky, on a level plane */
+    float sun[3];       /* unit vector towards the sun */
+    float rain_w_m2_k;  /* rho_w c_w R: heat that rain brings per kelvin */
     float rain_temperature_k;
     float unused[2];
 } forcing_record;

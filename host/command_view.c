@@ -1,0 +1,43 @@
+#include "command.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char help[] =
+    "usage: radsig view SCENE [--offscreen FILE.png] [--size WxH] [--plane NAME]\n"
+    "\n"
+    "Starts the preview, the program radsig-view that stands beside radsig.\n";
+
+/* Writes the path of radsig-view, beside this program. */
+static status viewer_path(char *out, size_t size)
+{
+    status rc = STATUS_OK;
+    const ssize_t length = readlink("/proc/self/exe", out, size - 16);
+
+    NEED(length > 0, STATUS_FILE, "/proc/self/exe: %s", strerror(errno));
+    out[length] = '\0';
+    strcpy(strrchr(out, '/') + 1, "radsig-view");
+out:
+    return rc;
+}
+
+int command_view(int argc, char **argv)
+{
+    char path[4096];
+    status rc;
+
+    if (argc == 2 && !strcmp(argv[1], "--help")) {
+        fputs(help, stdout);
+        return 0;
+    }
+    if (argc < 2) return command_misuse("view", "needs a scene");
+    rc = viewer_path(path, sizeof path);
+    if (rc == STATUS_OK) {
+        execv(path, argv);
+        rc = status_set(STATUS_FILE, "%s: %s: the preview is not part of this build", path,
+                        strerror(errno));
+    }
+    return command_end("view", rc);
+}

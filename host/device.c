@@ -1,0 +1,373 @@
+#define CL_TARGET_OPENCL_VERSION 120
+#include "device.h"
+
+#include "device_error.h"
+#include "kernel_source.h"
+#include "pocl_affinity.h"
+
+#include <CL/cl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { KERNEL_LIMIT = 32, LOCAL_SIZE = 64 };
+
+/* Times are kept as events until someone waits; then they are added up. */
+enum { PENDING_LIMIT = 1024 };
+
+typedef struct device_kernel {
+    char name[48];
+    cl_program program;
+    cl_kernel kernel;
+} device_kernel;
+
+typedef struct device_launch_event {
+    cl_event event;
+    size_t kernel;
+} device_launch_event;
+
+struct device {
+    cl_device_id id;
+    cl_context context;
+    cl_command_queue queue;
+    device_info info;
+    device_kernel kernels[KERNEL_LIMIT];
+    device_time times[KERNEL_LIMIT];
+    size_t kernel_count;
+    device_launch_event pending[PENDING_LIMIT];
+    size_t pending_count;
+};
+
+static void describe(device_info *info, cl_platform_id platform, cl_device_id id)
+{
+    cl_device_type type = 0;
+    cl_ulong memory = 0, allocation = 0;
+    cl_uint units = 0;
+
+    memset(info, 0, sizeof *info);
+    clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof info->platform, info->platform, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_NAME, sizeof info->name, info->name, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_VERSION, sizeof info->version, info->version, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof allocation, &allocation, NULL);
+    /* The CPU bit is looked at first: some CPU devices claim every type. */
+    strcpy(info->type, type & CL_DEVICE_TYPE_CPU   ? "cpu"
+                       : type & CL_DEVICE_TYPE_GPU ? "gpu"
+                                                   : "accelerator");
+    info->compute_units = units;
+    info->memory_bytes = memory;
+    info->allocation_bytes = allocation;
+}
+
+typedef struct device_choice {
+    cl_platform_id platform;
+    cl_device_id id;
+} device_choice;
+
+enum { PLATFORM_LIMIT = 16, DEVICE_LIMIT = 64 };
+
+static status find_devices(device_choice choices[DEVICE_LIMIT], size_t *out_count)
+{
+    status rc = STATUS_OK;
+    cl_platform_id platforms[PLATFORM_LIMIT];
+    cl_device_id ids[DEVICE_LIMIT];
+    cl_uint platform_count = 0, id_count;
+    size_t count = 0;
+
+    pocl_affinity_set();
+    if (clGetPlatformIDs(PLATFORM_LIMIT, platforms, &platform_count) != CL_SUCCESS)
+        platform_count = 0;
+    if (platform_count > PLATFORM_LIMIT) platform_count = PLATFORM_LIMIT;
+    NEED(platform_count > 0, STATUS_DEVICE,
+         "no OpenCL platform was found: install one, for the CPU the package pocl-opencl-icd");
+    for (cl_uint p = 0; p < platform_count; p++) {
+        if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, DEVICE_LIMIT, ids, &id_count))
+            continue;
+        for (cl_uint d = 0; d < id_count && d < DEVICE_LIMIT && count < DEVICE_LIMIT; d++)
+            choices[count++] = (device_choice){platforms[p], ids[d]};
+    }
+    NEED(count > 0, STATUS_DEVICE,
+         "no OpenCL platform has a device: for the CPU install the package pocl-opencl-icd");
+    *out_count = count;
+out:
+    return rc;
+}
+
+status device_list(device_info **out_info, size_t *out_count)
+{
+    status rc = STATUS_OK;
+    device_choice choices[DEVICE_LIMIT];
+    device_info *info = NULL;
+    size_t count, preferred = 0;
+
+    TRY(find_devices(choices, &count));
+    info = calloc(count, sizeof *info);
+    NEED(info, STATUS_MEMORY, "no memory for the list of devices");
+    for (size_t i = 0; i < count; i++) describe(&info[i], choices[i].platform, choices[i].id);
+    for (size_t i = count; i-- > 0;)
+        if (!strcmp(info[i].type, "cpu")) preferred = i;
+    info[preferred].is_default = true;
+    *out_info = info;
+    *out_count = count;
+out:
+    return rc;
+}
+
+static status choose(device *dev, int index)
+{
+    status rc = STATUS_OK;
+    device_choice choices[DEVICE_LIMIT];
+    device_info *info = NULL;
+    size_t count;
+
+    TRY(device_list(&info, &count));
+    TRY(find_devices(choices, &count));
+    NEED(index < (int)count, STATUS_ARGUMENT,
+         "device %d: there are devices 0 to %zu (radsig devices)", index, count - 1);
+    for (size_t i = 0; index < 0; i++)
+        if (info[i].is_default) index = (int)i;
+    dev->id = choices[index].id;
+    dev->info = info[index];
+out:
+    free(info);
+    return rc;
+}
+
+status device_open(device **out, int index)
+{
+    status rc = STATUS_OK;
+    cl_int error;
+    device *dev = calloc(1, sizeof *dev);
+
+    NEED(dev, STATUS_MEMORY, "no memory for a device");
+    TRY(choose(dev, index));
+    dev->context = clCreateContext(NULL, 1, &dev->id, NULL, NULL, &error);
+    NEED(dev->context, STATUS_DEVICE, "device %s: no context: %s", dev->info.name,
+         device_error(error));
+    dev->queue = clCreateCommandQueue(dev->context, dev->id, CL_QUEUE_PROFILING_ENABLE, &error);
+    NEED(dev->queue, STATUS_DEVICE, "device %s: no queue: %s", dev->info.name, device_error(error));
+    *out = dev;
+    dev = NULL;
+out:
+    device_free(dev);
+    return rc;
+}
+
+/* Adds up the times of launches that have ended; waits for all of them. */
+static status collect_times(device *dev)
+{
+    const cl_int error = clFinish(dev->queue);
+    status rc = STATUS_OK;
+
+    for (size_t i = 0; i < dev->pending_count; i++) {
+        const device_launch_event *launch = &dev->pending[i];
+        cl_ulong start = 0, end = 0;
+        cl_int state = CL_COMPLETE;
+        clGetEventInfo(launch->event, CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof state, &state,
+                       NULL);
+        clGetEventProfilingInfo(launch->event, CL_PROFILING_COMMAND_START, sizeof start, &start,
+                                NULL);
+        clGetEventProfilingInfo(launch->event, CL_PROFILING_COMMAND_END, sizeof end, &end, NULL);
+        clReleaseEvent(launch->event);
+        dev->times[launch->kernel].seconds += 1e-9 * (double)(end - start);
+        dev->times[launch->kernel].launches++;
+        if (state < 0 && rc == STATUS_OK)
+            rc = status_set(STATUS_DEVICE, "kernel %s failed on %s: %s",
+                            dev->kernels[launch->kernel].name, dev->info.name, device_error(state));
+    }
+    dev->pending_count = 0;
+    if (rc == STATUS_OK && error != CL_SUCCESS)
+        rc = status_set(STATUS_DEVICE, "device %s: %s", dev->info.name, device_error(error));
+    return rc;
+}
+
+void device_free(device *dev)
+{
+    if (!dev) return;
+    if (dev->queue) collect_times(dev);
+    for (size_t i = 0; i < dev->kernel_count; i++) {
+        clReleaseKernel(dev->kernels[i].kernel);
+        clReleaseProgram(dev->kernels[i].program);
+    }
+    if (dev->queue) clReleaseCommandQueue(dev->queue);
+    if (dev->context) clReleaseContext(dev->context);
+    free(dev);
+}
+
+const device_info *device_describe(const device *dev)
+{
+    return &dev->info;
+}
+
+static status allocation_status(cl_int error)
+{
+    return error == CL_MEM_OBJECT_ALLOCATION_FAILURE || error == CL_OUT_OF_RESOURCES ||
+                   error == CL_OUT_OF_HOST_MEMORY || error == CL_INVALID_BUFFER_SIZE
+               ? STATUS_MEMORY
+               : STATUS_DEVICE;
+}
+
+status device_allocate(device *dev, device_memory *out, size_t bytes, const void *initial)
+{
+    status rc = STATUS_OK;
+    cl_int error;
+    cl_mem memory;
+
+    /* A buffer of no bytes is not allowed; empty arrays get one that nobody reads. */
+    if (bytes == 0) initial = NULL;
+    memory = clCreateBuffer(dev->context, CL_MEM_READ_WRITE | (initial ? CL_MEM_COPY_HOST_PTR : 0),
+                            bytes ? bytes : 64, (void *)initial, &error);
+    NEED(memory, allocation_status(error), "device %s: no room for %zu bytes: %s", dev->info.name,
+         bytes, device_error(error));
+    *out = memory;
+out:
+    return rc;
+}
+
+void device_release(device_memory memory)
+{
+    if (memory) clReleaseMemObject(memory);
+}
+
+status device_upload(device *dev, device_memory memory, size_t offset, size_t bytes,
+                     const void *source)
+{
+    status rc = STATUS_OK;
+    const cl_int error = bytes ? clEnqueueWriteBuffer(dev->queue, memory, CL_TRUE, offset, bytes,
+                                                      source, 0, NULL, NULL)
+                               : CL_SUCCESS;
+
+    NEED(error == CL_SUCCESS, allocation_status(error), "device %s: writing %zu bytes: %s",
+         dev->info.name, bytes, device_error(error));
+out:
+    return rc;
+}
+
+status device_download(device *dev, device_memory memory, size_t offset, size_t bytes,
+                       void *destination)
+{
+    status rc = STATUS_OK;
+    cl_int error;
+
+    TRY(collect_times(dev));
+    if (bytes == 0) goto out;
+    error =
+        clEnqueueReadBuffer(dev->queue, memory, CL_TRUE, offset, bytes, destination, 0, NULL, NULL);
+    NEED(error == CL_SUCCESS, allocation_status(error), "device %s: reading %zu bytes: %s",
+         dev->info.name, bytes, device_error(error));
+out:
+    return rc;
+}
+
+static status build_failure(device *dev, const char *name, cl_program program, cl_int error)
+{
+    char *log = NULL;
+    size_t size = 0;
+    status rc;
+
+    clGetProgramBuildInfo(program, dev->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size);
+    log = calloc(1, size + 1);
+    if (log) clGetProgramBuildInfo(program, dev->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
+    rc = status_set(STATUS_DEVICE, "kernel %s does not build on %s: %s\n%s", name, dev->info.name,
+                    device_error(error), log ? log : "");
+    free(log);
+    return rc;
+}
+
+static status build_kernel(device *dev, const char *name, device_kernel *out)
+{
+    status rc = STATUS_OK;
+    cl_int error;
+    cl_program program = NULL;
+    char *text = NULL;
+
+    TRY(kernel_source_read(&text, name));
+    program = clCreateProgramWithSource(dev->context, 1, (const char **)&text, NULL, &error);
+    NEED(program, STATUS_DEVICE, "kernel %s: %s", name, device_error(error));
+    error = clBuildProgram(program, 1, &dev->id, "-cl-std=CL1.2", NULL, NULL);
+    if (error != CL_SUCCESS) TRY(build_failure(dev, name, program, error));
+    out->kernel = clCreateKernel(program, name, &error);
+    if (!out->kernel) TRY(build_failure(dev, name, program, error));
+    snprintf(out->name, sizeof out->name, "%s", name);
+    out->program = program;
+    program = NULL;
+out:
+    if (program) clReleaseProgram(program);
+    free(text);
+    return rc;
+}
+
+static status find_kernel(device *dev, const char *name, size_t *out)
+{
+    status rc = STATUS_OK;
+    size_t i;
+
+    for (i = 0; i < dev->kernel_count; i++)
+        if (!strcmp(dev->kernels[i].name, name)) break;
+    if (i == dev->kernel_count) {
+        NEED(i < KERNEL_LIMIT, STATUS_DEVICE, "kernel %s: more than %d kernels", name,
+             KERNEL_LIMIT);
+        TRY(build_kernel(dev, name, &dev->kernels[i]));
+        dev->times[i].kernel = dev->kernels[i].name;
+        dev->kernel_count++;
+    }
+    *out = i;
+out:
+    return rc;
+}
+
+static status set_arguments(device *dev, const device_kernel *kernel,
+                            const device_argument *arguments, size_t argument_count)
+{
+    status rc = STATUS_OK;
+    cl_uint expected = 0;
+
+    clGetKernelInfo(kernel->kernel, CL_KERNEL_NUM_ARGS, sizeof expected, &expected, NULL);
+    NEED(expected == argument_count, STATUS_DEVICE, "kernel %s takes %u arguments, not %zu",
+         kernel->name, expected, argument_count);
+    for (cl_uint i = 0; i < expected; i++) {
+        const cl_int error =
+            clSetKernelArg(kernel->kernel, i, arguments[i].size, arguments[i].value);
+        NEED(error == CL_SUCCESS, STATUS_DEVICE, "kernel %s on %s, argument %u: %s", kernel->name,
+             dev->info.name, i, device_error(error));
+    }
+out:
+    return rc;
+}
+
+status device_launch(device *dev, const char *name, device_shape shape,
+                     const device_argument *arguments, size_t argument_count)
+{
+    status rc = STATUS_OK;
+    const size_t local[2] = {LOCAL_SIZE, 1};
+    const size_t global[2] = {(shape.size[0] + LOCAL_SIZE - 1) / LOCAL_SIZE * LOCAL_SIZE,
+                              shape.size[1]};
+    cl_event event;
+    cl_int error;
+    size_t index = 0;
+
+    if (shape.size[0] == 0 || shape.size[1] == 0) return STATUS_OK;
+    TRY(find_kernel(dev, name, &index));
+    TRY(set_arguments(dev, &dev->kernels[index], arguments, argument_count));
+    if (dev->pending_count == PENDING_LIMIT) TRY(collect_times(dev));
+    error = clEnqueueNDRangeKernel(dev->queue, dev->kernels[index].kernel, 2, NULL, global, local,
+                                   0, NULL, &event);
+    NEED(error == CL_SUCCESS, allocation_status(error), "kernel %s over %zu x %zu on %s: %s", name,
+         shape.size[0], shape.size[1], dev->info.name, device_error(error));
+    dev->pending[dev->pending_count++] = (device_launch_event){event, index};
+out:
+    return rc;
+}
+
+status device_times(device *dev, const device_time **out, size_t *out_count)
+{
+    status rc = STATUS_OK;
+
+    TRY(collect_times(dev));
+    *out = dev->times;
+    *out_count = dev->kernel_count;
+out:
+    return rc;
+}
