@@ -1,0 +1,24 @@
+/* Extinction: what a transmissive material takes from light. Appendix A item 8 (.ext), eq. 2.4.3-3.
+ */
+#ifndef EXTINCTION_H
+#define EXTINCTION_H
+
+#include "status.h"
+
+enum {
+    EXTINCTION_WAVENUMBERS = 396, /* 39850, 39750, .. 350 cm-1, ascending wavelength */
+    EXTINCTION_FIRST_CM1 = 39850,
+    EXTINCTION_STEP_CM1 = 100
+};
+
+/* Transmission over z metres: exp(-value z). */
+typedef struct extinction {
+    double broad_band_per_m; /* .4 to 2.5 um, for insolation */
+    double per_m[EXTINCTION_WAVENUMBERS];
+} extinction;
+
+/* Reads an .ext file, which is per km; leading lines that start with '#' are passed over. */
+status extinction_read(extinction **out, const char *path);
+void extinction_free(extinction *e);
+
+#endif

@@ -1,0 +1,24 @@
+/* View: where the camera stands and what it sees. Thesis 2.5.3, Appendix A item 1 (.adv). */
+#ifndef VIEW_H
+#define VIEW_H
+
+#include "../kernels/records.h"
+#include "status.h"
+
+typedef struct view {
+    double position_m[3], target_m[3]; /* ENU; they differ */
+    double twist_deg;       /* about the line of sight: the picture turns counterclockwise */
+    double focal_length_mm; /* 35 mm equivalent: 36 mm of film lie across the columns */
+    int columns, rows;
+} view;
+
+/* Reads an .adv file and turns it from the axes of 1994 (+x north, +y west) to ENU. Its elevation
+ * and azimuth repeat what target and position say: more than .1 degree apart is a warning. */
+status view_read(view *out, const char *path);
+
+/* Turns a view into the pinhole camera of eq. 2.5.3-2, positions minus origin_m. Columns run to the
+ * right, rows from the top, pixels are square, up is up; straight down or up, the top is north.
+ * The view is one that was checked: position and target differ, sizes are above 0. */
+camera_record view_camera(const view *v, const double origin_m[3]);
+
+#endif
