@@ -87,6 +87,28 @@ typedef struct forcing_record {
 } forcing_record;
 RECORD_SIZE(forcing_record, 48);
 
+/* What rays need of a scene besides its triangles. */
+typedef struct world_record {
+    uint ground_facet; /* facet of the endless level plane, RECORD_NONE without one */
+    float ground_z_m;
+    float offset_m; /* rays that leave a surface start this far above it, along its normal */
+    uint unused;
+} world_record;
+RECORD_SIZE(world_record, 16);
+
+/* The hemisphere above a point: how much sky it sees, and what hides the rest. */
+typedef struct background_record {
+    float shape_factor;       /* 0 .. 1 = open sky */
+    float mean_temperature_k; /* of the facets met, every ray counts the same; 0 without any */
+    uint material;            /* index of the commonest material met or RECORD_NONE */
+    uint facet;               /* the first facet met of that material or RECORD_NONE */
+    float point[3];           /* where it was met */
+    float normal[3];          /* of that facet, unit, turned towards the point */
+    uint met_count;           /* rays that met a facet or the ground */
+    uint unused;
+} background_record;
+RECORD_SIZE(background_record, 48);
+
 /* Pinhole camera: ray of pixel (column, row) from its centre, row 0 on top:
  *   direction = corner + (column + .5) across + (row + .5) down, then normalised. */
 typedef struct camera_record {

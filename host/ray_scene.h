@@ -1,0 +1,42 @@
+/* A tree on a device, and the plane around it: what camera, sun and hemisphere rays share. */
+#ifndef RAY_SCENE_H
+#define RAY_SCENE_H
+
+#include "bvh.h"
+#include "device.h"
+
+typedef struct ray_scene ray_scene;
+
+/* Copies the tree to the device. The scene has no ground plane yet; the device must outlive it. */
+status ray_scene_open(ray_scene **out, device *dev, const bvh *tree);
+void ray_scene_free(ray_scene *scene);
+
+/* Gives the scene an endless level plane at z_m, met by what leaves the geometry below the horizon.
+ *   facet   its index in the tables of facets, past the real ones; RECORD_NONE: no plane */
+void ray_scene_set_ground(ray_scene *scene, uint32_t facet, float z_m);
+
+device *ray_scene_device(const ray_scene *scene);
+device_memory ray_scene_nodes(const ray_scene *scene);
+device_memory ray_scene_blocks(const ray_scene *scene);
+world_record ray_scene_world(const ray_scene *scene);
+
+/* Casts the rays of pixels first_pixel .. first_pixel + count - 1, counted along the rows; both
+ * sides of a facet are seen. Ranges are metres. Thesis 2.5.3.
+ *   out_hit   hit_record, shape (count); the ground plane is met as its facet */
+status ray_scene_primary(const ray_scene *scene, const camera_record *camera, uint32_t columns,
+                         uint32_t first_pixel, uint32_t count, device_memory out_hit);
+
+/* Casts any rays. Direction need not be unit; ranges are in its lengths, above 0.
+ *   ray         float, shape (count, 6): origin, direction
+ *   cull_back   1: facets seen from behind are not met
+ *   out_range   float, shape (count): INFINITY for a miss
+ *   out_facet   uint32, shape (count): RECORD_NONE for a miss; of equal ranges the lowest facet */
+status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t cull_back,
+                       device_memory ray, device_memory out_range, device_memory out_facet);
+
+/* As ray_scene_trace, but only tells whether a ray meets anything.
+ *   out_met   uint8, shape (count): 0 or 1 */
+status ray_scene_occluded(const ray_scene *scene, uint32_t count, uint32_t cull_back,
+                          device_memory ray, device_memory out_met);
+
+#endif

@@ -1,0 +1,47 @@
+/* Shape factor: the share of the hemisphere above a point that sees the sky, and what hides the
+ * rest. Thesis 2.4.2, eq. 2.4.2-6, 2.4.2-7. */
+#ifndef SHAPE_FACTOR_H
+#define SHAPE_FACTOR_H
+
+#include "ray_scene.h"
+
+/* What a cell of the hemisphere counts; e is its elevation above the facet's plane. */
+typedef enum shape_factor_reading {
+    SHAPE_FACTOR_COSINE,      /* sin(e) cos(e), as irradiance does */
+    SHAPE_FACTOR_SOLID_ANGLE, /* cos(e) */
+    SHAPE_FACTOR_THESIS       /* sin(e): eq. 2.4.2-6 with theta of eq. 2.4.2-7, as printed */
+} shape_factor_reading;
+
+/* Finds a reading by its name on the command line: cosine, solid-angle, thesis. */
+status shape_factor_read_name(shape_factor_reading *out, const char *name);
+
+/* A grid of directions over the hemisphere, on a device: cell centres, the lowest ring first, each
+ * ring clockwise as seen from above the facet, from its upslope direction, from north where it is
+ * level. Weights sum to 1. */
+typedef struct shape_factor_grid shape_factor_grid;
+
+/* Fails with STATUS_ARGUMENT unless the steps divide 90 and 360, or beyond 2^22 cells. Departs from
+ * the thesis: cell centres instead of borders, normalised weights, see docs/departures.md. */
+status shape_factor_open(shape_factor_grid **out, device *dev, shape_factor_reading reading,
+                         double zenith_step_deg, double azimuth_step_deg);
+void shape_factor_free(shape_factor_grid *grid);
+uint32_t shape_factor_cell_count(const shape_factor_grid *grid);
+
+/* What the rays may meet; all three are read at the ground's facet too. */
+typedef struct shape_factor_tables {
+    device_memory facet;         /* facet_record */
+    device_memory temperature_k; /* float, per facet */
+    device_memory material;      /* material_record */
+} shape_factor_tables;
+
+/* Samples the hemisphere above every point; both sides of a facet are seen. A ray that leaves the
+ * scene sees the sky, or the ground plane if that is there and the ray goes down.
+ *   hit              hit_record, shape (count); only point, facet and normal are read
+ *   out_background   background_record, shape (count). Points without a facet get factor 1 and no
+ *                    background. Of equally common materials the lowest number is taken; at most
+ *                    256 materials are counted at a point */
+status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
+                        const shape_factor_tables *tables, uint32_t count, device_memory hit,
+                        device_memory out_background);
+
+#endif
