@@ -3,6 +3,7 @@
 #ifndef WEATHER_H
 #define WEATHER_H
 
+#include "site.h"
 #include "status.h"
 
 #include <stddef.h>
@@ -49,6 +50,10 @@ status weather_write(const weather *w, const char *path);
 /* Hour at which the last full day begins: 24 for the 48 hours of the thesis, 0 where the history is
  * shorter than two days. The image's local clock time counts from here. */
 double weather_day_start_h(const weather *w);
+
+/* UTC time in seconds of the history's hour 0, where its last full day is the local day of the
+ * site's time. */
+double weather_origin_s(const weather *w, const site *place);
 
 /* Vapour pressure of saturated air over water: Magnus with the constants of WMO-No. 8 (2008). */
 double weather_saturation_pa(double temperature_k);

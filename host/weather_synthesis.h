@@ -28,11 +28,4 @@ weather_summary weather_summary_default(void);
  * Fails with STATUS_ARGUMENT where a value of the summary is out of its range. */
 status weather_synthesise(weather **out, const weather_summary *summary, const site *place);
 
-/* Clear-sky irradiance of Bird and Hulstrom; zero when the sun is below the horizon.
- *   water_cm          precipitable water
- *   out_direct_w_m2   normal to the beam
- *   out_diffuse_w_m2  on a level plane, with what goes to and fro between ground and sky */
-void weather_clear_sky(double zenith_rad, double distance_au, double pressure_pa, double water_cm,
-                       double *out_direct_w_m2, double *out_diffuse_w_m2);
-
 #endif
