@@ -1,16 +1,14 @@
-/* Images written as OpenEXR (named float planes) and PNG (8 bit), and planes of an OpenEXR read back. The same input gives the same bytes.
- * The function says the format, not the extension of the path, so that a caller can write under a temporary name. */
+/* Images written as OpenEXR (named float planes) and PNG (8 bit), and planes of an OpenEXR read
+ * back. The same input gives the same bytes. The function says the format, not the extension of the
+ * path, so that a caller can write under a temporary name. */
 #ifndef MESHIO_IMAGE_FILE_H
 #define MESHIO_IMAGE_FILE_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-/* A string stored in the image under a key. `DateTime` (`1987:06:24 15:00:00`) is stored only when the caller gives it. */
+/* A string stored in the image under a key. The key `DateTime` (`1987:06:24 15:00:00`) is the time of
+ * capture; without it an OpenEXR holds an empty one and a PNG none. */
 typedef struct image_text {
     const char *key, *value;
 } image_text;
@@ -30,20 +28,20 @@ typedef struct image_channel {
 typedef enum image_compression { IMAGE_NONE, IMAGE_ZIP } image_compression;
 
 /* Writes the channels, float32 and exact, under their names (each once).
- * Returns 0, or non-zero with `path: ...`: cannot be created, disk full, no channels, a name given twice. What was written then remains. */
-int image_file_write_exr(const char *path, const image_frame *frame, const image_channel *channel, size_t channel_count,
-                         image_compression compression, char *message, size_t message_size);
+ * Returns 0, or non-zero with `path: ...`: cannot be created, disk full, no channels, a name given
+ * twice. What was written then remains. */
+int image_file_write_exr(const char *path, const image_frame *frame, const image_channel *channel,
+                         size_t channel_count, image_compression compression, char *message,
+                         size_t message_size);
 
 /* Writes 8-bit RGB, shape (height, width, 3). Fails as image_file_write_exr does. */
-int image_file_write_png(const char *path, const image_frame *frame, const uint8_t *rgb, char *message, size_t message_size);
+int image_file_write_png(const char *path, const image_frame *frame, const uint8_t *rgb,
+                         char *message, size_t message_size);
 
 /* Reads the channel called `name` of an OpenEXR file.
  *   out   shape (height, width), released by the caller with free()
  * Returns 0, or non-zero with `path: ...`: no such file, no such channel, damaged. */
-int image_file_read_channel(float **out, uint32_t *out_width, uint32_t *out_height, const char *path, const char *name, char *message,
-                            size_t message_size);
+int image_file_read_channel(float **out, uint32_t *out_width, uint32_t *out_height,
+                            const char *path, const char *name, char *message, size_t message_size);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -1,0 +1,243 @@
+/* Wavefront OBJ through tinyobjloader's callbacks. tinyobjloader neither tells its callbacks the
+ * line nor notices malformed numbers, and makes nan and inf zero: so a stream buffer hands it one
+ * line at a time and checks that line first. */
+#include "failure.hpp"
+#include "mesh_soup.hpp"
+#include "mesh_text.hpp"
+
+#define TINYOBJLOADER_IMPLEMENTATION
+#define TINYOBJLOADER_USE_DOUBLE
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wall"
+#pragma GCC diagnostic ignored "-Wextra"
+#pragma GCC diagnostic ignored "-Wshadow"
+#include <tiny_obj_loader.h>
+#pragma GCC diagnostic pop
+
+#include <istream>
+#include <streambuf>
+
+namespace
+{
+
+class obj_lines : public std::streambuf
+{
+  public:
+    obj_lines(const std::string &path, std::string &text) : text_(text), lines_(path, text)
+    {
+    }
+
+    const mesh_text &where() const
+    {
+        return lines_;
+    }
+
+    /* The vertex of the `v` line handed out last. */
+    const std::array<double, 3> &position() const
+    {
+        return position_;
+    }
+
+  protected:
+    int_type underflow() override
+    {
+        std::string_view line;
+
+        if (!lines_.next(line)) return traits_type::eof();
+        if (line.find('\0') != line.npos) lines_.fail("a zero byte, expected text");
+        const std::string_view keyword = keyword_of(line);
+        char *begin = text_.data() + (line.data() - text_.data());
+
+        if (keyword != "v" && keyword != "f") return hand_out(begin, line.size());
+        if (line.back() == '\\') {
+            joined_ = joined(line);
+            line = joined_;
+            begin = joined_.data();
+        }
+        line = line.substr(0, line.find(" #"));
+        check(keyword, line);
+        return hand_out(begin, line.size());
+    }
+
+  private:
+    static std::string_view keyword_of(std::string_view line)
+    {
+        return mesh_text_word(line);
+    }
+
+    /* The byte after the line is its end, the blank before a comment, or the one that joined() put there. */
+    int_type hand_out(char *begin, std::size_t size)
+    {
+        begin[size] = '\n';
+        setg(begin, begin, begin + size + 1);
+        return traits_type::to_int_type(*begin);
+    }
+
+    /* A line that ends in a backslash, and those that go on with it. */
+    std::string joined(std::string_view line)
+    {
+        std::string all;
+        bool goes_on;
+
+        do {
+            goes_on = !line.empty() && line.back() == '\\';
+            all.append(line.substr(0, line.size() - goes_on)).append(1, ' ');
+        } while (goes_on && lines_.next(line));
+        return all;
+    }
+
+    void check(std::string_view keyword, std::string_view line)
+    {
+        mesh_text_word(line);
+        if (keyword == "v")
+            lines_.point(line, position_.data());
+        else
+            check_corners(line);
+    }
+
+    void check_corners(std::string_view rest) const
+    {
+        std::size_t count = 0;
+
+        for (std::string_view word; !(word = mesh_text_word(rest)).empty(); count++) {
+            const long long index = lines_.integer(word.substr(0, word.find('/')));
+            if (!index || index > INT32_MAX || index < -INT32_MAX)
+                lines_.fail(word, "a vertex index, which counts from 1 or, backwards, from -1");
+        }
+        if (count < 3)
+            lines_.fail("a face of " + std::to_string(count) + " corners, expected 3 or more");
+    }
+
+    std::string &text_;
+    std::string joined_;
+    mesh_text lines_;
+    std::array<double, 3> position_{};
+};
+
+/* What the callbacks fill. */
+struct obj_reader {
+    mesh_soup &soup;
+    const obj_lines &lines;
+    std::string stem, object, part, material;
+    std::uint32_t object_number, part_number, material_number;
+    bool is_renamed; /* since the last face */
+    struct reference {
+        long long index;
+        unsigned long line;
+    };
+    std::vector<reference> ahead; /* to vertices that had not been met yet */
+};
+
+/* tinyobjloader hands over the rest of the line, blanks and all. */
+std::string trimmed(const std::string &name, const std::string &otherwise)
+{
+    const std::size_t begin = name.find_first_not_of(" \t"), end = name.find_last_not_of(" \t");
+
+    return begin == name.npos ? otherwise : name.substr(begin, end - begin + 1);
+}
+
+std::uint32_t vertex_of(obj_reader &reader, int index)
+{
+    const long long count = static_cast<long long>(reader.soup.position.size());
+    const mesh_text &where = reader.lines.where();
+
+    if (index < -count)
+        where.fail("vertex " + std::to_string(index) + ", expected one of the " +
+                   std::to_string(count) + " before");
+    if (index > count) reader.ahead.push_back({index, where.line()});
+    return static_cast<std::uint32_t>(index < 0 ? count + index : index - 1);
+}
+
+void on_vertex(void *user, double, double, double, double)
+{
+    obj_reader &reader = *static_cast<obj_reader *>(user);
+
+    reader.soup.position.push_back(reader.lines.position());
+}
+
+void on_face(void *user, tinyobj::index_t *corner, int count)
+{
+    obj_reader &reader = *static_cast<obj_reader *>(user);
+    mesh_soup &soup = reader.soup;
+
+    if (reader.is_renamed) {
+        reader.object_number = soup.objects.number_of(reader.object);
+        reader.part_number = soup.parts.number_of(reader.part);
+        reader.material_number = soup.materials.number_of(reader.material);
+        reader.is_renamed = false;
+    }
+    for (int i = 0; i < count; i++)
+        soup.corner.push_back(vertex_of(reader, corner[i].vertex_index));
+    soup.end_face();
+    soup.object.push_back(reader.object_number);
+    soup.part.push_back(reader.part_number);
+    soup.material.push_back(reader.material_number);
+}
+
+void on_object(void *user, const char *name)
+{
+    obj_reader &reader = *static_cast<obj_reader *>(user);
+
+    reader.object = trimmed(name, reader.stem);
+    reader.is_renamed = true;
+}
+
+/* A face in several groups belongs to the part of all their names. */
+void on_group(void *user, const char **name, int count)
+{
+    obj_reader &reader = *static_cast<obj_reader *>(user);
+    std::string part;
+
+    for (int i = 0; i < count; i++) part.append(i ? " " : "").append(name[i]);
+    reader.part = trimmed(part, mesh_soup_part);
+    reader.is_renamed = true;
+}
+
+void on_material(void *user, const char *name, int)
+{
+    obj_reader &reader = *static_cast<obj_reader *>(user);
+
+    reader.material = trimmed(name, mesh_soup_material);
+    reader.is_renamed = true;
+}
+
+tinyobj::callback_t callbacks()
+{
+    tinyobj::callback_t callback;
+
+    callback.vertex_cb = on_vertex;
+    callback.index_cb = on_face;
+    callback.object_cb = on_object;
+    callback.group_cb = on_group;
+    callback.usemtl_cb = on_material;
+    return callback;
+}
+
+} // namespace
+
+void mesh_obj_read(mesh_soup &soup, const std::string &path, std::string &text)
+{
+    const tinyobj::callback_t callback = callbacks();
+    text += '\n';
+    obj_lines lines(path, text);
+    std::istream stream(&lines);
+    obj_reader reader{soup,
+                      lines,
+                      mesh_soup_stem(path),
+                      mesh_soup_stem(path),
+                      mesh_soup_part,
+                      mesh_soup_material,
+                      0,
+                      0,
+                      0,
+                      true,
+                      {}};
+
+    stream.exceptions(std::ios::badbit);
+    tinyobj::LoadObjWithCallback(stream, callback, &reader);
+    for (const obj_reader::reference &one : reader.ahead)
+        if (one.index > static_cast<long long>(soup.position.size()))
+            throw failure(path + ":" + std::to_string(one.line) + ": vertex " +
+                          std::to_string(one.index) + ", expected one of " +
+                          std::to_string(soup.position.size()));
+}
