@@ -1,4 +1,5 @@
-/* Atmosphere: the radiance database of a scene. Thesis 2.4, 2.5.4, Appendix A item 4 (.rad). */
+/* Atmosphere: the radiance database of a scene. Thesis 2.4, Figure 2.4-3, 2.5.4, Appendix A
+ * item 4 (.rad). */
 #ifndef ATMOSPHERE_H
 #define ATMOSPHERE_H
 
@@ -19,6 +20,7 @@ typedef struct atmosphere {
 
     int path_count;                                     /* paths from the ground to the sensor */
     double path_zenith_first_deg, path_zenith_step_deg; /* of the sensor, seen from the ground */
+    double path_zenith_meaningful_deg;                  /* the largest to be used */
     double *path_range_m;                               /* (path_count) */
     double *tau2, *path_emitted, *path_scattered;       /* (path_count, n): tau2, L_uE, L_uS */
 

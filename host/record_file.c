@@ -10,9 +10,9 @@
 
 struct record_file {
     char *path, *text;
-    char *next;           /* the first character that was not taken */
-    int next_line;        /* its line number, from 1 */
-    const char *taken;    /* the line that was taken last */
+    char *next;        /* the first character that was not taken */
+    int next_line;     /* its line number, from 1 */
+    const char *taken; /* the line that was taken last */
     int taken_line;
 };
 
@@ -101,13 +101,45 @@ status record_file_text(record_file *file, const char **out_text, const char *ex
     file->taken_line = file->next_line;
     end = strchr(file->next, '\n');
     file->next = end ? end + 1 : file->next + strlen(file->next);
-    if (end) file->next_line++;
-    else end = file->next;
+    if (end)
+        file->next_line++;
+    else
+        end = file->next;
     while (end > file->taken && isspace((unsigned char)end[-1])) end--;
     *end = '\0';
     *out_text = file->taken;
 out:
     return rc;
+}
+
+status record_file_header(record_file *file, char **out_text)
+{
+    status rc = STATUS_OK;
+    const char *line, *next;
+    char *text = calloc(1, strlen(file->next) + 2);
+    size_t length = 0;
+
+    NEED(text, STATUS_MEMORY, "%s: no memory for its header", file->path);
+    while ((next = record_file_peek(file)) && *next == '#') {
+        TRY(record_file_text(file, &line, "a header"));
+        length += (size_t)sprintf(text + length, "%s\n", line);
+    }
+    if (out_text) {
+        char *fitted = realloc(text, length + 1);
+        *out_text = fitted ? fitted : text;
+        text = NULL;
+    }
+out:
+    free(text);
+    return rc;
+}
+
+size_t record_file_column(const record_file *file)
+{
+    const char *start = file->taken;
+
+    while (start > file->text && (start[-1] == ' ' || start[-1] == '\t')) start--;
+    return (size_t)(file->taken - start);
 }
 
 status record_file_numbers(record_file *file, size_t count, double *out, const char *expected)
@@ -116,7 +148,8 @@ status record_file_numbers(record_file *file, size_t count, double *out, const c
     const char *text;
 
     TRY(record_file_text(file, &text, expected));
-    if (record_numbers(text, count, out) != (int)count) rc = record_file_reject(file, "%s", expected);
+    if (record_numbers(text, count, out) != (int)count)
+        rc = record_file_reject(file, "%s", expected);
 out:
     return rc;
 }
@@ -179,7 +212,8 @@ static bool starts_number(const char *text)
 {
     if (*text == '+' || *text == '-') text++;
     if (*text == '.') text++;
-    return isdigit((unsigned char)*text) && !(text[0] == '0' && tolower((unsigned char)text[1]) == 'x');
+    return isdigit((unsigned char)*text) &&
+           !(text[0] == '0' && tolower((unsigned char)text[1]) == 'x');
 }
 
 int record_numbers(const char *text, size_t limit, double *out)

@@ -24,6 +24,14 @@ bool record_file_at_end(const record_file *file);
  * All of the following fail with STATUS_FORMAT and `path:line: ... expected ...`. */
 status record_file_text(record_file *file, const char **out_text, const char *expected);
 
+/* Takes leading lines that start with '#', a file's header.
+ *   out_text   each line with its line end, "" if there are none; the caller frees it; NULL: dropped
+ * Fails with STATUS_MEMORY. */
+status record_file_header(record_file *file, char **out_text);
+
+/* Column of the first character of the line that was taken last, from 0: the blanks before it. */
+size_t record_file_column(const record_file *file);
+
 /* Looks at the next line without taking it; NULL at the end. */
 const char *record_file_peek(record_file *file);
 
@@ -38,9 +46,10 @@ status record_file_number(record_file *file, double low, double high, double *ou
 /* Takes a line that holds one whole number from low to high. */
 status record_file_count(record_file *file, long low, long high, long *out, const char *expected);
 
-/* Sets a failure at the line that was taken last: `path:line: 'text' stands there, expected ...`. */
+/* Sets a failure at the line that was taken last: `path:line: 'text' stands there, expected ...`.
+ */
 __attribute__((format(printf, 2, 3))) status record_file_reject(const record_file *file,
-                                                               const char *expected, ...);
+                                                                const char *expected, ...);
 
 /* Fails unless only blank lines are left. */
 status record_file_finish(record_file *file);

@@ -1,0 +1,54 @@
+#include "extinction.h"
+
+#include "record_file.h"
+
+#include <stdlib.h>
+
+#define PER_KM 1e-3        /* per metre */
+#define LARGEST_PER_KM 1e6 /* 1 per mm */
+
+static status read_rows(extinction *e, record_file *file)
+{
+    status rc = STATUS_OK;
+    double broad_band_per_km, row[2];
+
+    TRY(record_file_number(file, 0.0, LARGEST_PER_KM, &broad_band_per_km,
+                           "the broad-band extinction per km"));
+    e->broad_band_per_m = broad_band_per_km * PER_KM;
+    for (int i = 0; i < EXTINCTION_WAVENUMBERS; i++) {
+        const int wavenumber = EXTINCTION_FIRST_CM1 - i * EXTINCTION_STEP_CM1;
+        TRY(record_file_numbers(file, 2, row, "a wavenumber and an extinction per km"));
+        if (row[0] != (double)wavenumber || row[1] < 0.0 || row[1] > LARGEST_PER_KM) {
+            rc = record_file_reject(file, "%d and an extinction per km from 0 to %g", wavenumber,
+                                    LARGEST_PER_KM);
+            goto out;
+        }
+        e->per_m[i] = row[1] * PER_KM;
+    }
+out:
+    return rc;
+}
+
+status extinction_read(extinction **out, const char *path)
+{
+    status rc = STATUS_OK;
+    record_file *file = NULL;
+    extinction *e = malloc(sizeof *e);
+
+    NEED(e, STATUS_MEMORY, "extinction table");
+    TRY(record_file_open(&file, path));
+    TRY(record_file_header(file, NULL));
+    TRY(read_rows(e, file));
+    TRY(record_file_finish(file));
+    *out = e;
+    e = NULL;
+out:
+    record_file_free(file);
+    extinction_free(e);
+    return rc;
+}
+
+void extinction_free(extinction *e)
+{
+    free(e);
+}
