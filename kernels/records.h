@@ -25,6 +25,9 @@ RECORD_SIZE(bvh_node, 256);
 
 #define BVH_LEAF 0x80000000u
 
+/* Entries that a ray's stack can need; the builder keeps to it. */
+#define RAY_STACK_SIZE 256
+
 /* Eight triangles of a leaf; 64-byte aligned. A quad is two triangles with the same facet.
  *   vertex   shape (vertex 0..2, axis, lane)
  *   facet    index of the facet, RECORD_NONE pads */
@@ -118,5 +121,54 @@ typedef struct camera_record {
     float down[3];
 } camera_record;
 RECORD_SIZE(camera_record, 48);
+
+/* What all pixels of a frame share in the radiance equations. */
+typedef struct radiometry_record {
+    uint columns;      /* of the image */
+    uint first_pixel;  /* of the tile, counted along the rows */
+    uint pixel_count;  /* of the tile */
+    uint band_count;
+    uint sample_count; /* of all bands together: length of a row of the spectra, times 16 */
+    uint thesis;       /* 1: emissivity at the nearest degree, of diffuse targets at 0 */
+    uint path_count;   /* zenith angles of paths */
+    float path_zenith_first_deg;
+    float path_zenith_step_deg;
+    uint zenith_count, azimuth_count; /* directions of the sky */
+    float zenith_step_deg, azimuth_step_deg;
+    float sun[3];      /* unit vector towards the sun */
+} radiometry_record;
+RECORD_SIZE(radiometry_record, 64);
+
+/* Rows of the spectra, each of sample_count floats; behind them stand path_count rows of tau2,
+ * path_count rows of path radiance, and zenith_count x azimuth_count rows of sky radiance. */
+#define SPECTRA_WEIGHT 0u        /* response x quadrature, um */
+#define SPECTRA_PLANCK_FIRST 1u  /* 2 h c^2 / l^5, W m-2 sr-1 um-1 */
+#define SPECTRA_PLANCK_SECOND 2u /* h c / (k l), K */
+#define SPECTRA_SUN 3u           /* E_S tau1, W m-2 um-1 */
+#define SPECTRA_SKY 4u           /* L_DE + L_DS, integrated over the hemisphere */
+#define SPECTRA_PATHS 5u
+
+/* A band of the sensor. */
+typedef struct band_record {
+    uint first_sample;  /* a multiple of 16 */
+    uint sample_count;  /* a multiple of 16; the last ones may have weight 0 */
+    float gain, offset; /* counts = gain x radiance in band + offset */
+    float width_um;     /* sum of the weights */
+    uint is_mean;       /* 1: the radiance plane holds radiance in band / width */
+    uint unused[2];
+} band_record;
+RECORD_SIZE(band_record, 32);
+
+/* Band radiance of a black body: ln L at BAND_TEMPERATURES temperatures, evenly spaced in ln T. */
+#define BAND_TEMPERATURES 4096u
+#define BAND_LOWEST_K 1.0f
+#define BAND_HIGHEST_K 20000.0f
+
+/* Planes that the radiometry writes per band, and those that it writes once. */
+#define BAND_PLANES 5u /* radiance, counts, apparent temperature, emissivity, background's */
+#define TRUTH_PLANES 11u
+
+/* What stands in a plane where a pixel has no value. */
+#define NO_VALUE (-9999.0f)
 
 #endif
