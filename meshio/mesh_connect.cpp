@@ -3,7 +3,6 @@ extern "C" {
 }
 #include "failure.hpp"
 
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized" /* false alarm in OpenMesh at -O2 */
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/System/omstream.hh>
 

@@ -3,6 +3,7 @@ extern "C" {
 }
 
 #include "failure.hpp"
+#include "file_text.hpp"
 #include "mesh_soup.hpp"
 #include "mesh_text.hpp"
 
@@ -75,7 +76,7 @@ extern "C" int mesh_file_read(mesh_file **out, const char *path, char *message, 
 try {
     auto mesh = std::make_unique<owned_mesh>();
     mesh_soup &soup = mesh->soup;
-    std::string text = mesh_text_load(path);
+    std::string text = file_text_load(path);
 
     read_format(soup, path, text);
     if (!soup.face_count()) throw failure(std::string(path) + ": no faces");

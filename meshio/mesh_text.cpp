@@ -2,19 +2,12 @@
 
 #include "failure.hpp"
 
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
-#include <cstring>
-#include <memory>
-#include <sys/stat.h>
 
 namespace
 {
 
 const char blanks[] = " \t"; /* as tinyobjloader has it */
-const long long largest_file =
-    1ll << 32; /* offsets into the corners are 32 bit, and a corner takes a byte or more */
 
 std::string_view without_plus(std::string_view word)
 {
@@ -31,22 +24,6 @@ template <typename T> bool parse(std::string_view word, T &value)
 }
 
 } // namespace
-
-std::string mesh_text_load(const std::string &path)
-{
-    std::unique_ptr<FILE, int (*)(FILE *)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-    struct stat about = {};
-    std::string text;
-
-    if (!file || fstat(fileno(file.get()), &about))
-        throw failure(path + ": " + std::strerror(errno));
-    if (S_ISDIR(about.st_mode)) throw failure(path + ": a folder, expected a mesh file");
-    if (about.st_size >= largest_file) throw failure(path + ": larger than 4 GiB");
-    text.resize(static_cast<std::size_t>(about.st_size));
-    if (std::fread(text.data(), 1, text.size(), file.get()) != text.size())
-        throw failure(path + ": cannot be read");
-    return text;
-}
 
 std::string_view mesh_text_word(std::string_view &rest)
 {

@@ -6,9 +6,6 @@
 #include <string>
 #include <string_view>
 
-/* Everything in the file. Throws failure: no such file, a folder, unreadable, larger than 4 GiB. */
-std::string mesh_text_load(const std::string &path);
-
 /* Takes the next word off the front of `rest`; empty at its end. */
 std::string_view mesh_text_word(std::string_view &rest);
 

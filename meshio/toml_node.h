@@ -18,11 +18,11 @@ typedef enum toml_kind {
 
 toml_kind toml_node_kind(const toml_node *node);
 
-/* The line of the key or table header, counted from 1; 0 for what --set stated, and for the root.
- */
+/* The line of the key or table header, counted from 1; 0 for the root and what --set stated. */
 int toml_node_line(const toml_node *node);
 
-/* `path:line`, or `--set` for what --set stated: the beginning of every message about the node. */
+/* `path:line`, `--set` for what --set stated, `path` for the root: where a message about the node
+ * begins. */
 const char *toml_node_where(const toml_node *node);
 
 /* The key in its table; "" for the root and for the elements of an array. */
@@ -31,7 +31,7 @@ const char *toml_node_key(const toml_node *node);
 /* The dotted name, as --set takes it: `site.latitude_deg`, `band.0.name`; "" for the root. */
 const char *toml_node_name(const toml_node *node);
 
-/* What stands there, as TOML, cut after 60 characters: for messages. */
+/* What stands there, as TOML, cut after 60 bytes: for messages. A table is "a table". */
 const char *toml_node_text(const toml_node *node);
 
 /* The number of keys of a table or of elements of an array; 0 for every other kind. */
@@ -45,7 +45,7 @@ const toml_node *toml_node_at(const toml_node *node, size_t index);
  * is NULL. */
 const toml_node *toml_node_get(const toml_node *node, const char *key);
 
-/* The getters return 0, or non-zero with `path:line: name: found what stood there, expected ...`
+/* The getters return 0, or non-zero with `path:line: name: what stood there, expected ...`
  * where the kind is another one. What they point to belongs to the toml_file. */
 int toml_node_string(const char **out, const toml_node *node, char *message, size_t message_size);
 
