@@ -55,8 +55,8 @@ uint32_t image_rows(const image *img);
 size_t image_plane_count(const image *img);
 const image_plane *image_plane_at(const image *img, size_t plane);
 
-/* Writes the values to the disk and the header beside them; output_folder_commit then renames
- * both. Braces, commas and line ends in texts become other marks, or they would break lists. */
+/* Writes the header; output_folder_commit then renames both files. Braces, commas and line ends in
+ * texts become other marks, or they would break lists. */
 status image_finish(image *img, const image_header *header);
 
 /* Releases the map; the files belong to the folder. NULL is allowed. */

@@ -3,7 +3,7 @@
 #ifndef OUTPUT_FOLDER_H
 #define OUTPUT_FOLDER_H
 
-#include "status.h"
+#include "output_file.h"
 
 typedef struct output_folder output_folder;
 
@@ -11,9 +11,9 @@ typedef struct output_folder output_folder;
  * made or files cannot be made in it. */
 status output_folder_open(output_folder **out, const char *path);
 
-/* Reserves the file `name` of the folder.
- *   out_temporary_path   to write it under; belongs to the folder */
-status output_folder_add(output_folder *folder, const char *name, const char **out_temporary_path);
+/* Reserves the file `name` of the folder, to be written under its temporary path. It belongs to the
+ * folder, which commits it. */
+status output_folder_add(output_folder *folder, const char *name, const output_file **out);
 
 /* Renames every file added to its name. Each must have been written and closed. */
 status output_folder_commit(output_folder *folder);

@@ -1,0 +1,275 @@
+#include "image.h"
+
+#include "image_file.h"
+#include "image_header.h"
+
+#include <assert.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the header says little endian");
+
+struct image {
+    uint32_t columns, rows;
+    image_plane *plane; /* shape (plane_count); owns its texts */
+    size_t plane_count;
+    float *value; /* shape (plane_count, rows, columns), mapped */
+    size_t bytes;
+    char *stem;
+    const output_file *header; /* belongs to the folder */
+};
+
+static status copy_planes(image *img, const image_plane *plane, size_t plane_count)
+{
+    status rc = STATUS_OK;
+
+    img->plane = calloc(plane_count, sizeof *img->plane);
+    NEED(img->plane, STATUS_MEMORY, "%s: no memory for %zu planes", img->stem, plane_count);
+    img->plane_count = plane_count;
+    for (size_t p = 0; p < plane_count; p++) {
+        image_plane *copy = &img->plane[p];
+        *copy = plane[p];
+        copy->name = strdup(plane[p].name);
+        copy->unit = strdup(plane[p].unit ? plane[p].unit : "");
+        NEED(copy->name && copy->unit, STATUS_MEMORY, "%s: no memory for %zu planes", img->stem,
+             plane_count);
+    }
+out:
+    return rc;
+}
+
+/* The disk is taken first: writing to a map when the disk is full kills the process. */
+static status map_values(image *img, const output_file *place)
+{
+    status rc = STATUS_OK;
+    const char *path = output_file_path(place);
+    int error, file = -1;
+    void *map = MAP_FAILED;
+
+    NEED(img->columns && img->rows, STATUS_ARGUMENT, "%s: an image of %u x %u pixels", img->stem,
+         img->columns, img->rows);
+    NEED(img->plane_count <= SIZE_MAX / 8 / sizeof(float) / img->columns / img->rows,
+         STATUS_ARGUMENT, "%s: %u x %u pixels of %zu planes are too many", img->stem, img->columns,
+         img->rows, img->plane_count);
+    img->bytes = (size_t)img->columns * img->rows * img->plane_count * sizeof(float);
+    file = open(output_file_temporary_path(place), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    NEED(file >= 0, STATUS_FILE, "%s: %s", path, strerror(errno));
+    error = posix_fallocate(file, 0, (off_t)img->bytes);
+    NEED(error == 0, STATUS_FILE, "%s: no place for %zu bytes: %s", path, img->bytes,
+         strerror(error));
+    map = mmap(NULL, img->bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    NEED(map != MAP_FAILED, STATUS_FILE, "%s: %zu bytes cannot be mapped: %s", path, img->bytes,
+         strerror(errno));
+    img->value = map;
+out:
+    if (file >= 0) close(file);
+    return rc;
+}
+
+static status add_file(output_folder *folder, const char *stem, const char *extension,
+                       const output_file **out)
+{
+    status rc = STATUS_OK;
+    const size_t size = strlen(stem) + strlen(extension) + 1;
+    char *name = malloc(size);
+
+    NEED(name, STATUS_MEMORY, "%s: no memory to write it", stem);
+    snprintf(name, size, "%s%s", stem, extension);
+    TRY(output_folder_add(folder, name, out));
+out:
+    free(name);
+    return rc;
+}
+
+status image_create(image **out, output_folder *folder, const char *stem, uint32_t columns,
+                    uint32_t rows, const image_plane *plane, size_t plane_count)
+{
+    status rc = STATUS_OK;
+    const output_file *place = NULL;
+    image *img = calloc(1, sizeof *img);
+
+    NEED(img, STATUS_MEMORY, "%s: no memory to write it", stem);
+    assert(plane_count > 0);
+    img->stem = strdup(stem);
+    NEED(img->stem, STATUS_MEMORY, "%s: no memory to write it", stem);
+    img->columns = columns;
+    img->rows = rows;
+    TRY(copy_planes(img, plane, plane_count));
+    TRY(add_file(folder, stem, ".img", &place));
+    TRY(add_file(folder, stem, ".hdr", &img->header));
+    TRY(map_values(img, place));
+    *out = img;
+    img = NULL;
+out:
+    image_free(img);
+    return rc;
+}
+
+float *image_values(image *img, size_t plane)
+{
+    assert(plane < img->plane_count);
+    return img->value + plane * img->columns * img->rows;
+}
+
+uint32_t image_columns(const image *img)
+{
+    return img->columns;
+}
+
+uint32_t image_rows(const image *img)
+{
+    return img->rows;
+}
+
+size_t image_plane_count(const image *img)
+{
+    return img->plane_count;
+}
+
+const image_plane *image_plane_at(const image *img, size_t plane)
+{
+    assert(plane < img->plane_count);
+    return &img->plane[plane];
+}
+
+status image_finish(image *img, const image_header *header)
+{
+    return image_header_write(img->header, img, header);
+}
+
+/* The texts stored in an OpenEXR file. */
+typedef struct exr_texts {
+    image_text *text; /* shape (count); owns keys and values */
+    size_t count;
+} exr_texts;
+
+static void exr_texts_free(exr_texts *texts)
+{
+    for (size_t i = 0; i < texts->count; i++) {
+        free((char *)texts->text[i].key);
+        free((char *)texts->text[i].value);
+    }
+    free(texts->text);
+}
+
+static status add_text(exr_texts *to, const char *prefix, const char *key, const char *value)
+{
+    status rc = STATUS_OK;
+    const size_t size = strlen(prefix) + strlen(key) + 1;
+    char *whole = malloc(size), *copy = strdup(value);
+    image_text *more = realloc(to->text, (to->count + 1) * sizeof *more);
+
+    if (more) to->text = more;
+    NEED(whole && copy && more, STATUS_MEMORY, "%s: no memory for the text", key);
+    snprintf(whole, size, "%s%s", prefix, key);
+    to->text[to->count++] = (image_text){whole, copy};
+    whole = copy = NULL;
+out:
+    free(copy);
+    free(whole);
+    return rc;
+}
+
+static status add_labels(exr_texts *to, const image_field *field)
+{
+    status rc = STATUS_OK;
+    char *value = NULL;
+    size_t size = 0;
+    FILE *memory = open_memstream(&value, &size);
+
+    NEED(memory, STATUS_MEMORY, "%s: no memory for the text", field->key);
+    for (size_t i = 0; i < field->label_count; i++)
+        fprintf(memory, "%s%d %s", i ? ", " : "", field->label[i].number, field->label[i].name);
+    NEED(fclose(memory) == 0, STATUS_MEMORY, "%s: no memory for the text", field->key);
+    TRY(add_text(to, "", field->key, value));
+out:
+    free(value);
+    return rc;
+}
+
+static status add_header(exr_texts *to, const image_header *header)
+{
+    status rc = STATUS_OK;
+    char date[] = "0000:00:00 00:00:00"; /* OpenEXR's form of 0000-00-00T00:00:00Z */
+
+    for (size_t i = 0; i < sizeof date - 1 && header->time[i]; i++)
+        if (date[i] == '0') date[i] = header->time[i];
+    TRY(add_text(to, "", "DateTime", date));
+    TRY(add_text(to, "", "acquisition time", header->time));
+    TRY(add_text(to, "", "ImageDescription", header->description));
+    for (size_t i = 0; i < header->field_count; i++) {
+        const image_field *field = &header->field[i];
+        if (field->text)
+            TRY(add_text(to, "", field->key, field->text));
+        else
+            TRY(add_labels(to, field));
+    }
+out:
+    return rc;
+}
+
+static status add_channels(exr_texts *to, image_channel **out, size_t *out_count, image *const *img,
+                           size_t image_count)
+{
+    status rc = STATUS_OK;
+    size_t count = 0;
+
+    for (size_t i = 0; i < image_count; i++) count += img[i]->plane_count;
+    image_channel *channel = calloc(count, sizeof *channel);
+    NEED(channel, STATUS_MEMORY, "no memory for %zu channels", count);
+    for (size_t i = 0, c = 0; i < image_count; i++) {
+        assert(img[i]->columns == img[0]->columns && img[i]->rows == img[0]->rows);
+        for (size_t p = 0; p < img[i]->plane_count; p++, c++) {
+            const image_plane *plane = &img[i]->plane[p];
+            channel[c] = (image_channel){plane->name, image_values(img[i], p)};
+            if (plane->unit[0]) TRY(add_text(to, "unit.", plane->name, plane->unit));
+        }
+    }
+    *out = channel;
+    *out_count = count;
+    channel = NULL;
+out:
+    free(channel);
+    return rc;
+}
+
+status image_write_exr(output_folder *folder, const char *name, image *const *img,
+                       size_t image_count, const image_header *header)
+{
+    status rc = STATUS_OK;
+    char message[1024] = "";
+    exr_texts texts = {0};
+    image_channel *channel = NULL;
+    size_t channel_count = 0;
+    const output_file *place = NULL;
+
+    TRY(add_header(&texts, header));
+    TRY(add_channels(&texts, &channel, &channel_count, img, image_count));
+    TRY(output_folder_add(folder, name, &place));
+    const image_frame frame = {img[0]->columns, img[0]->rows, texts.text, texts.count};
+    NEED(image_file_write_exr(output_file_temporary_path(place), &frame, channel, channel_count,
+                              IMAGE_ZIP, message, sizeof message) == 0,
+         STATUS_FILE, "%s", message);
+out:
+    free(channel);
+    exr_texts_free(&texts);
+    return rc;
+}
+
+void image_free(image *img)
+{
+    if (!img) return;
+    if (img->value) munmap(img->value, img->bytes);
+    for (size_t p = 0; p < img->plane_count; p++) {
+        free((char *)img->plane[p].name);
+        free((char *)img->plane[p].unit);
+    }
+    free(img->plane);
+    free(img->stem);
+    free(img);
+}

@@ -1,0 +1,126 @@
+#include "output_folder.h"
+
+#include <errno.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+struct output_folder {
+    char *path;
+    size_t made_length; /* the shortest part of the path that had to be made; 0: none */
+    output_file **file; /* shape (file_count) */
+    size_t file_count;
+    bool committed;
+};
+
+static status make(output_folder *folder, const char *part, size_t length)
+{
+    status rc = STATUS_OK;
+    struct stat found;
+
+    if (mkdir(part, 0777) == 0) {
+        if (!folder->made_length) folder->made_length = length;
+        goto out;
+    }
+    NEED(errno == EEXIST || (stat(part, &found) == 0 && S_ISDIR(found.st_mode)), STATUS_FILE,
+         "%s: cannot be made: %s", part, strerror(errno));
+    NEED(stat(part, &found) == 0 && S_ISDIR(found.st_mode), STATUS_FILE,
+         "%s: is no folder, so %s cannot be written", part, folder->path);
+out:
+    return rc;
+}
+
+/* The path with everything from the length-th character on cut off is a folder on the way. */
+static bool ends_a_part(const char *path, size_t length)
+{
+    return length > 0 && path[length - 1] != '/' && (path[length] == '/' || path[length] == '\0');
+}
+
+static status make_with_parents(output_folder *folder)
+{
+    status rc = STATUS_OK;
+    const size_t full = strlen(folder->path);
+    char *part = strdup(folder->path);
+
+    NEED(part, STATUS_MEMORY, "%s: no memory to make it", folder->path);
+    for (size_t length = 1; length <= full; length++) {
+        if (!ends_a_part(folder->path, length)) continue;
+        part[length] = '\0';
+        TRY(make(folder, part, length));
+        part[length] = folder->path[length];
+    }
+    NEED(access(folder->path, W_OK | X_OK) == 0, STATUS_FILE, "%s: files cannot be made in it: %s",
+         folder->path, strerror(errno));
+out:
+    free(part);
+    return rc;
+}
+
+status output_folder_open(output_folder **out, const char *path)
+{
+    status rc = STATUS_OK;
+    output_folder *folder = calloc(1, sizeof *folder);
+
+    NEED(folder, STATUS_MEMORY, "%s: no memory to make it", path);
+    folder->path = strdup(path[0] ? path : ".");
+    NEED(folder->path, STATUS_MEMORY, "%s: no memory to make it", path);
+    TRY(make_with_parents(folder));
+    *out = folder;
+    folder = NULL;
+out:
+    output_folder_free(folder);
+    return rc;
+}
+
+status output_folder_add(output_folder *folder, const char *name, const output_file **out)
+{
+    status rc = STATUS_OK;
+    const size_t size = strlen(folder->path) + strlen(name) + 2;
+    char *path = malloc(size);
+    output_file **more = NULL;
+
+    NEED(path, STATUS_MEMORY, "%s: no memory to write it", name);
+    snprintf(path, size, "%s/%s", folder->path, name);
+    more = realloc(folder->file, (folder->file_count + 1) * sizeof(output_file *));
+    NEED(more, STATUS_MEMORY, "%s: no memory to write it", path);
+    folder->file = more;
+    TRY(output_file_reserve(&folder->file[folder->file_count], path));
+    *out = folder->file[folder->file_count++];
+out:
+    free(path);
+    return rc;
+}
+
+status output_folder_commit(output_folder *folder)
+{
+    status rc = STATUS_OK;
+
+    for (size_t i = 0; i < folder->file_count; i++) TRY(output_file_commit(folder->file[i]));
+    folder->committed = true;
+out:
+    return rc;
+}
+
+/* From the folder upwards to the first one made; a folder that is not empty stays. */
+static void remove_made(output_folder *folder)
+{
+    const size_t full = strlen(folder->path);
+
+    for (size_t length = full; length >= folder->made_length; length--) {
+        if (!ends_a_part(folder->path, length)) continue;
+        folder->path[length] = '\0';
+        if (rmdir(folder->path) != 0) return;
+    }
+}
+
+void output_folder_free(output_folder *folder)
+{
+    if (!folder) return;
+    for (size_t i = 0; i < folder->file_count; i++) output_file_free(folder->file[i]);
+    if (folder->made_length && !folder->committed) remove_made(folder);
+    free(folder->file);
+    free(folder->path);
+    free(folder);
+}
