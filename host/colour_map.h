@@ -11,7 +11,7 @@ void colour_map_grey(double share, uint8_t out_rgb[3]);
 void colour_map_heat(double share, uint8_t out_rgb[3]);
 
 /* Colour of the n-th category; the first 22 differ as much as possible: K. L. Kelly, Twenty-two
- * colors of maximum contrast, Color Engineering 3 (1965). */
+ * colors of maximum contrast, Color Engineering 3 (1965). Those beyond are hashed. */
 void colour_map_category(uint32_t n, uint8_t out_rgb[3]);
 
 /* A colour hashed from a number, never dark; neighbours in number differ. */
