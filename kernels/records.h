@@ -124,9 +124,9 @@ RECORD_SIZE(camera_record, 48);
 
 /* What all pixels of a frame share in the radiance equations. */
 typedef struct radiometry_record {
-    uint columns;      /* of the image */
-    uint first_pixel;  /* of the tile, counted along the rows */
-    uint pixel_count;  /* of the tile */
+    uint columns;     /* of the image */
+    uint first_pixel; /* of the tile, counted along the rows */
+    uint pixel_count; /* of the tile */
     uint band_count;
     uint sample_count; /* of all bands together: length of a row of the spectra, times 16 */
     uint thesis;       /* 1: emissivity at the nearest degree, of diffuse targets at 0 */
@@ -135,7 +135,7 @@ typedef struct radiometry_record {
     float path_zenith_step_deg;
     uint zenith_count, azimuth_count; /* directions of the sky */
     float zenith_step_deg, azimuth_step_deg;
-    float sun[3];      /* unit vector towards the sun */
+    float sun[3]; /* unit vector towards the sun */
 } radiometry_record;
 RECORD_SIZE(radiometry_record, 64);
 

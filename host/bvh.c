@@ -1,0 +1,265 @@
+#include "bvh.h"
+
+#include "bvh_binary.h"
+#include "polygon.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CHILDREN = 8, ALIGNMENT = 64, BLOCK_LIMIT = 1 << 27 };
+
+/* Products of four coordinates must stay far from overflow on the device. */
+static const float coordinate_limit = 1e9f;
+
+/* What the edge test on the device can be off by, per metre of coordinate: 8 roundings. */
+static const float rounding = 4.76837158203125e-7f;
+
+struct bvh {
+    bvh_tables tables;
+    bvh_node *node;
+    bvh_block *block;
+};
+
+typedef struct triangle {
+    uint32_t corner[3], facet;
+} triangle;
+
+/* The triangles on their way into the tree. */
+typedef struct builder {
+    bvh *tree;
+    const float (*position)[3];
+    triangle *triangle;
+    bvh_item *item;
+    bvh_fork *fork;
+    float pad_m;
+} builder;
+
+static bool is_usable(const float (*position)[3], const uint32_t corner[3])
+{
+    const float *a = position[corner[0]], *b = position[corner[1]], *c = position[corner[2]];
+    double u[3], v[3];
+
+    for (int k = 0; k < 3; k++) {
+        if (!(fabs(a[k]) <= coordinate_limit && fabs(b[k]) <= coordinate_limit &&
+              fabs(c[k]) <= coordinate_limit))
+            return false;
+        u[k] = (double)b[k] - (double)a[k];
+        v[k] = (double)c[k] - (double)a[k];
+    }
+    return u[1] * v[2] != u[2] * v[1] || u[2] * v[0] != u[0] * v[2] || u[0] * v[1] != u[1] * v[0];
+}
+
+static void add_triangle(builder *b, uint32_t facet, uint32_t c0, uint32_t c1, uint32_t c2)
+{
+    bvh_tables *all = &b->tree->tables;
+    const triangle t = {{c0, c1, c2}, facet};
+    bvh_item *item = &b->item[all->triangle_count];
+
+    if (!is_usable(b->position, t.corner)) return;
+    for (int k = 0; k < 3; k++) {
+        const float x = b->position[c0][k], y = b->position[c1][k], z = b->position[c2][k];
+        item->low[k] = x < y ? (x < z ? x : z) : (y < z ? y : z);
+        item->high[k] = x > y ? (x > z ? x : z) : (y > z ? y : z);
+        if (all->triangle_count == 0 || item->low[k] < all->low[k]) all->low[k] = item->low[k];
+        if (all->triangle_count == 0 || item->high[k] > all->high[k]) all->high[k] = item->high[k];
+    }
+    item->triangle = all->triangle_count;
+    b->triangle[all->triangle_count++] = t;
+}
+
+static void add_facets(builder *b, uint32_t facet_count, const uint32_t (*corner)[4])
+{
+    float reach = 0;
+
+    for (uint32_t i = 0; i < facet_count; i++) {
+        const uint32_t *c = corner[i];
+        if (c[3] == UINT32_MAX) {
+            add_triangle(b, i, c[0], c[1], c[2]);
+        } else {
+            const uint32_t d = polygon_diagonal(c, b->position);
+            add_triangle(b, i, c[d], c[d + 1], c[d + 2]);
+            add_triangle(b, i, c[d], c[d + 2], c[(d + 3) % 4]);
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        reach = fmax(reach, fabs(b->tree->tables.low[k]));
+        reach = fmax(reach, fabs(b->tree->tables.high[k]));
+    }
+    b->pad_m = rounding * reach;
+}
+
+/* Opens the node until it has eight children, always the largest first. */
+static uint32_t gather_children(const bvh_fork *fork, uint32_t top, uint32_t child[CHILDREN])
+{
+    uint32_t count = 1;
+
+    child[0] = top;
+    while (count < CHILDREN) {
+        uint32_t largest = CHILDREN;
+        float largest_area = -1;
+        for (uint32_t i = 0; i < count; i++) {
+            const bvh_fork *f = &fork[child[i]];
+            const float area = bvh_half_area(f->low, f->high);
+            if (f->right && area > largest_area) {
+                largest = i;
+                largest_area = area;
+            }
+        }
+        if (largest == CHILDREN) break;
+        child[count++] = fork[child[largest]].right;
+        child[largest]++;
+    }
+    return count;
+}
+
+/* Sorts the children by their centres along the diagonal of an octant. */
+static uint32_t octant_order(const bvh_node *node, uint32_t count, uint32_t octant)
+{
+    float distance[CHILDREN];
+    uint32_t sorted[CHILDREN], order = 0;
+
+    for (uint32_t i = 0; i < CHILDREN; i++) {
+        uint32_t place = i;
+        distance[i] = i < count ? 0 : 1e30f;
+        for (int k = 0; k < 3 && i < count; k++) {
+            const float c = node->low[k][i] + node->high[k][i];
+            distance[i] += octant >> k & 1 ? -c : c;
+        }
+        for (; place > 0 && distance[sorted[place - 1]] > distance[i]; place--)
+            sorted[place] = sorted[place - 1];
+        sorted[place] = i;
+    }
+    for (uint32_t i = 0; i < CHILDREN; i++) order |= sorted[i] << (4 * i);
+    return order;
+}
+
+static uint32_t add_leaf(builder *b, const bvh_fork *leaf)
+{
+    const uint32_t index = b->tree->tables.block_count++;
+    bvh_block *block = &b->tree->block[index];
+
+    memset(block, 0, sizeof *block);
+    for (uint32_t lane = 0; lane < BVH_BLOCK_SIZE; lane++) {
+        block->facet[lane] = RECORD_NONE;
+        if (lane >= leaf->count) continue;
+        const triangle *t = &b->triangle[b->item[leaf->first + lane].triangle];
+        block->facet[lane] = t->facet;
+        for (int v = 0; v < 3; v++)
+            for (int k = 0; k < 3; k++) block->vertex[v][k][lane] = b->position[t->corner[v]][k];
+    }
+    return BVH_LEAF | index << 4 | 1;
+}
+
+static void set_box(bvh_node *node, uint32_t child, const bvh_fork *fork, float pad_m)
+{
+    for (int k = 0; k < 3; k++) {
+        node->low[k][child] = fork ? fork->low[k] - pad_m : 1e30f;
+        node->high[k][child] = fork ? fork->high[k] + pad_m : -1e30f;
+    }
+}
+
+/* Adds the node over `top`; returns the stack entries that a ray below it can need. */
+static uint32_t add_node(builder *b, uint32_t top)
+{
+    const uint32_t index = b->tree->tables.node_count++;
+    bvh_node *node = &b->tree->node[index];
+    uint32_t child[CHILDREN], count = 0, deepest = 0;
+
+    if (b->fork) count = gather_children(b->fork, top, child);
+    for (uint32_t i = 0; i < CHILDREN; i++) {
+        set_box(node, i, i < count ? &b->fork[child[i]] : NULL, b->pad_m);
+        node->child[i] = BVH_LEAF;
+    }
+    for (uint32_t octant = 0; octant < 8; octant++)
+        node->order[octant] = octant_order(node, count, octant);
+    for (uint32_t i = 0; i < count; i++) {
+        if (b->fork[child[i]].right == 0) {
+            node->child[i] = add_leaf(b, &b->fork[child[i]]);
+        } else {
+            node->child[i] = b->tree->tables.node_count;
+            const uint32_t below = add_node(b, child[i]);
+            deepest = below > deepest ? below : deepest;
+        }
+    }
+    return deepest + count;
+}
+
+/* Makes the flat tree; fails where it has more blocks than a child word can name. */
+static status flatten(builder *b, bool even, uint32_t *out_stack)
+{
+    status rc = STATUS_OK;
+    bvh *tree = b->tree;
+    const uint32_t count = tree->tables.triangle_count;
+    uint32_t fork_count = 1;
+
+    if (count) TRY(bvh_binary_build(&b->fork, &fork_count, b->item, count, even));
+    const size_t leaf_count = (fork_count + 1) / 2;
+    NEED(leaf_count <= BLOCK_LIMIT, STATUS_ARGUMENT,
+         "a tree over %u triangles would have %zu blocks, at most %d are possible", count,
+         leaf_count, BLOCK_LIMIT);
+    tree->node = aligned_alloc(ALIGNMENT, leaf_count * sizeof *tree->node);
+    tree->block = aligned_alloc(ALIGNMENT, leaf_count * sizeof *tree->block);
+    NEED(tree->node && tree->block, STATUS_MEMORY, "no memory for a tree over %u triangles", count);
+    *out_stack = add_node(b, 0);
+    if (count == 0) add_leaf(b, &(bvh_fork){.count = 0});
+out:
+    return rc;
+}
+
+static void drop_flat(builder *b)
+{
+    free(b->fork);
+    free(b->tree->node);
+    free(b->tree->block);
+    b->fork = NULL;
+    b->tree->node = NULL;
+    b->tree->block = NULL;
+    b->tree->tables.node_count = b->tree->tables.block_count = 0;
+}
+
+status bvh_build(bvh **out, uint32_t facet_count, const uint32_t (*corner)[4],
+                 const float (*position)[3])
+{
+    status rc = STATUS_OK;
+    builder b = {.position = position};
+    const size_t most = 2 * (size_t)facet_count + 1;
+    uint32_t stack = 0;
+
+    b.tree = calloc(1, sizeof *b.tree);
+    b.triangle = malloc(most * sizeof *b.triangle);
+    b.item = malloc(most * sizeof *b.item);
+    NEED(b.tree && b.triangle && b.item, STATUS_MEMORY, "no memory for a tree over %u facets",
+         facet_count);
+    NEED(most < UINT32_MAX / 2, STATUS_ARGUMENT, "a tree over %u facets is too large", facet_count);
+    add_facets(&b, facet_count, corner);
+    TRY(flatten(&b, false, &stack));
+    if (stack > RAY_STACK_SIZE) {
+        drop_flat(&b);
+        TRY(flatten(&b, true, &stack));
+    }
+    assert(stack <= RAY_STACK_SIZE);
+    b.tree->tables.node = b.tree->node;
+    b.tree->tables.block = b.tree->block;
+    *out = b.tree;
+    b.tree = NULL;
+out:
+    free(b.fork);
+    free(b.item);
+    free(b.triangle);
+    bvh_free(b.tree);
+    return rc;
+}
+
+void bvh_free(bvh *tree)
+{
+    if (!tree) return;
+    free(tree->node);
+    free(tree->block);
+    free(tree);
+}
+
+const bvh_tables *bvh_look(const bvh *tree)
+{
+    return &tree->tables;
+}

@@ -1,0 +1,101 @@
+#include "ray_scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* What a secondary ray keeps from its surface, per metre of coordinate: 16 roundings. */
+static const float offset_per_m = 9.5367431640625e-7f;
+
+struct ray_scene {
+    device *dev;
+    device_memory node, block;
+    world_record world;
+};
+
+/* The largest coordinate of the geometry. */
+static float reach(const bvh_tables *tables)
+{
+    float largest = 0;
+
+    for (int k = 0; k < 3; k++)
+        largest = fmaxf(largest, fmaxf(fabsf(tables->low[k]), fabsf(tables->high[k])));
+    return largest;
+}
+
+status ray_scene_open(ray_scene **out, device *dev, const bvh *tree)
+{
+    status rc = STATUS_OK;
+    const bvh_tables *tables = bvh_look(tree);
+    ray_scene *scene = calloc(1, sizeof *scene);
+
+    NEED(scene, STATUS_MEMORY, "no memory for a scene of rays");
+    scene->dev = dev;
+    scene->world.ground_facet = RECORD_NONE;
+    scene->world.offset_m = offset_per_m * reach(tables);
+    TRY(device_allocate(dev, &scene->node, tables->node_count * sizeof *tables->node,
+                        tables->node));
+    TRY(device_allocate(dev, &scene->block, tables->block_count * sizeof *tables->block,
+                        tables->block));
+    *out = scene;
+    scene = NULL;
+out:
+    ray_scene_free(scene);
+    return rc;
+}
+
+void ray_scene_free(ray_scene *scene)
+{
+    if (!scene) return;
+    device_release(scene->block);
+    device_release(scene->node);
+    free(scene);
+}
+
+void ray_scene_set_ground(ray_scene *scene, uint32_t facet, float z_m)
+{
+    scene->world.ground_facet = facet;
+    scene->world.ground_z_m = z_m;
+}
+
+device *ray_scene_device(const ray_scene *scene)
+{
+    return scene->dev;
+}
+
+device_memory ray_scene_nodes(const ray_scene *scene)
+{
+    return scene->node;
+}
+
+device_memory ray_scene_blocks(const ray_scene *scene)
+{
+    return scene->block;
+}
+
+world_record ray_scene_world(const ray_scene *scene)
+{
+    return scene->world;
+}
+
+status ray_scene_primary(const ray_scene *scene, const camera_record *camera, uint32_t columns,
+                         uint32_t first_pixel, uint32_t count, device_memory out_hit)
+{
+    return device_run(scene->dev, "primary", shape1(count), ARG(count), ARG(first_pixel),
+                      ARG(columns), ARG(*camera), ARG(scene->world), ARG(scene->node),
+                      ARG(scene->block), ARG(out_hit));
+}
+
+status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t cull_back,
+                       device_memory ray, device_memory out_range, device_memory out_facet)
+{
+    return device_run(scene->dev, "trace", shape1(count), ARG(count), ARG(cull_back),
+                      ARG(scene->node), ARG(scene->block), ARG(ray), ARG(out_range),
+                      ARG(out_facet));
+}
+
+status ray_scene_occluded(const ray_scene *scene, uint32_t count, uint32_t cull_back,
+                          device_memory ray, device_memory out_met)
+{
+    return device_run(scene->dev, "occluded", shape1(count), ARG(count), ARG(cull_back),
+                      ARG(scene->node), ARG(scene->block), ARG(ray), ARG(out_met));
+}

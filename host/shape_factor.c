@@ -1,0 +1,130 @@
+#include "shape_factor.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CELL_LIMIT = 1 << 22 };
+
+static const double radian = 0.017453292519943295;
+
+struct shape_factor_grid {
+    device_memory cell; /* shape (cell_count, 4): upslope, across, normal, weight */
+    uint32_t cell_count;
+};
+
+status shape_factor_read_name(shape_factor_reading *out, const char *name)
+{
+    static const char *const names[] = {"cosine", "solid-angle", "thesis"};
+
+    for (int i = 0; i < 3; i++)
+        if (!strcmp(name, names[i])) {
+            *out = (shape_factor_reading)i;
+            return STATUS_OK;
+        }
+    return status_set(STATUS_ARGUMENT,
+                      "'%s' is no reading of the shape factor, expected cosine, "
+                      "solid-angle or thesis",
+                      name);
+}
+
+/* Finds how many steps make up the range. */
+static status count_steps(uint32_t *out, const char *name, double step_deg, double range_deg)
+{
+    status rc = STATUS_OK;
+    double count = 0;
+
+    NEED(step_deg > 0 && step_deg <= range_deg, STATUS_ARGUMENT,
+         "a step in %s of %g degrees, expected above 0 and up to %g", name, step_deg, range_deg);
+    count = round(range_deg / step_deg);
+    NEED(count <= CELL_LIMIT && fabs(count * step_deg - range_deg) < 1e-6 * range_deg,
+         STATUS_ARGUMENT, "a step in %s of %g degrees does not divide %g", name, step_deg,
+         range_deg);
+    *out = (uint32_t)count;
+out:
+    return rc;
+}
+
+/* The weight of a cell at an elevation above the plane, before they are made to sum to 1. */
+static double weigh(shape_factor_reading reading, double elevation_rad)
+{
+    switch (reading) {
+    case SHAPE_FACTOR_SOLID_ANGLE:
+        return cos(elevation_rad);
+    case SHAPE_FACTOR_THESIS:
+        return sin(elevation_rad); /* eq. 2.4.2-6 with theta of eq. 2.4.2-7 */
+    default:
+        return sin(elevation_rad) * cos(elevation_rad);
+    }
+}
+
+static void fill_cells(float (*cell)[4], shape_factor_reading reading, uint32_t rings,
+                       uint32_t azimuths)
+{
+    double sum = 0;
+
+    for (uint32_t r = 0; r < rings; r++)
+        sum += azimuths * weigh(reading, (r + .5) * 90 / rings * radian);
+    for (uint32_t r = 0; r < rings; r++)
+        for (uint32_t a = 0; a < azimuths; a++) {
+            const double elevation = (r + .5) * 90 / rings * radian;
+            const double azimuth = (a + .5) * 360 / azimuths * radian;
+            float *c = cell[r * azimuths + a];
+            c[0] = (float)(cos(elevation) * cos(azimuth)); /* eq. 2.4.2-7 */
+            c[1] = (float)(cos(elevation) * sin(azimuth));
+            c[2] = (float)sin(elevation);
+            c[3] = (float)(weigh(reading, elevation) / sum);
+        }
+}
+
+status shape_factor_open(shape_factor_grid **out, device *dev, shape_factor_reading reading,
+                         double zenith_step_deg, double azimuth_step_deg)
+{
+    status rc = STATUS_OK;
+    shape_factor_grid *grid = calloc(1, sizeof *grid);
+    float(*cell)[4] = NULL;
+    uint32_t rings = 0, azimuths = 0;
+
+    NEED(grid, STATUS_MEMORY, "no memory for a hemisphere");
+    TRY(count_steps(&rings, "zenith", zenith_step_deg, 90));
+    TRY(count_steps(&azimuths, "azimuth", azimuth_step_deg, 360));
+    NEED((uint64_t)rings * azimuths <= CELL_LIMIT, STATUS_ARGUMENT,
+         "steps of %g and %g degrees make more than %d cells", zenith_step_deg, azimuth_step_deg,
+         CELL_LIMIT);
+    grid->cell_count = rings * azimuths;
+    cell = malloc(grid->cell_count * sizeof *cell);
+    NEED(cell, STATUS_MEMORY, "no memory for a hemisphere of %u cells", grid->cell_count);
+    fill_cells(cell, reading, rings, azimuths);
+    TRY(device_allocate(dev, &grid->cell, grid->cell_count * sizeof *cell, cell));
+    *out = grid;
+    grid = NULL;
+out:
+    free(cell);
+    shape_factor_free(grid);
+    return rc;
+}
+
+void shape_factor_free(shape_factor_grid *grid)
+{
+    if (!grid) return;
+    device_release(grid->cell);
+    free(grid);
+}
+
+uint32_t shape_factor_cell_count(const shape_factor_grid *grid)
+{
+    return grid->cell_count;
+}
+
+status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
+                        const shape_factor_tables *tables, uint32_t count, device_memory hit,
+                        device_memory out_background)
+{
+    const world_record world = ray_scene_world(scene);
+    const device_memory nodes = ray_scene_nodes(scene), blocks = ray_scene_blocks(scene);
+
+    return device_run(ray_scene_device(scene), "hemisphere", shape1(count), ARG(count),
+                      ARG(grid->cell_count), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
+                      ARG(tables->facet), ARG(tables->temperature_k), ARG(tables->material),
+                      ARG(hit), ARG(out_background));
+}

@@ -1,0 +1,77 @@
+/* Hemisphere: the frame of a facet, and the count of what its rays met. Thesis 2.4.2. */
+#ifndef HEMISPHERE_H
+#define HEMISPHERE_H
+
+#include "records.h"
+
+/* Materials that are counted at one point. */
+#define HEMISPHERE_MATERIALS 256
+
+/* Below this horizontal part of its normal a facet counts as level. */
+#define HEMISPHERE_LEVEL 1e-4f
+
+/* Directions in a facet's plane: upslope (north where it is level), and a quarter turn clockwise
+ * from there as seen from above the facet (east where it is level and faces up). */
+typedef struct hemisphere_frame {
+    float upslope[3], across[3], normal[3];
+} hemisphere_frame;
+
+static inline hemisphere_frame hemisphere_frame_of(const float normal[3])
+{
+    const float level = sqrt(normal[0] * normal[0] + normal[1] * normal[1]);
+    hemisphere_frame f;
+
+    for (int k = 0; k < 3; k++) f.normal[k] = normal[k];
+    f.upslope[0] = level < HEMISPHERE_LEVEL ? 0.0f : -normal[2] * normal[0] / level;
+    f.upslope[1] = level < HEMISPHERE_LEVEL ? 1.0f : -normal[2] * normal[1] / level;
+    f.upslope[2] = level < HEMISPHERE_LEVEL ? 0.0f : level;
+    for (int k = 0; k < 3; k++) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        f.across[k] = f.upslope[a] * normal[b] - f.upslope[b] * normal[a];
+    }
+    return f;
+}
+
+/* Turns a direction of the grid (upslope, across, normal) into the world's. */
+static inline void hemisphere_direction(const hemisphere_frame *f, const float local[3],
+                                        float out[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = (local[0] * f->upslope[k] + local[1] * f->across[k]) + local[2] * f->normal[k];
+}
+
+/* What was met above one point: each material once, with its rays and the first of them. */
+typedef struct hemisphere_count {
+    uint material[HEMISPHERE_MATERIALS], rays[HEMISPHERE_MATERIALS], first[HEMISPHERE_MATERIALS];
+    uint material_count, met_count;
+    float open, blocked; /* sums of weights */
+    float base_k, excess_k; /* first temperature met, and the sum of what the others exceed it by */
+} hemisphere_count;
+
+static inline void hemisphere_count_clear(hemisphere_count *c)
+{
+    c->material_count = c->met_count = 0;
+    c->open = c->blocked = c->base_k = c->excess_k = 0;
+}
+
+/* Counts ray number `cell`, which met a facet. */
+static inline void hemisphere_count_met(hemisphere_count *c, const uint cell, const float weight,
+                                        const uint material, const float temperature_k)
+{
+    uint i = 0;
+
+    if (c->met_count++ == 0) c->base_k = temperature_k;
+    c->excess_k += temperature_k - c->base_k;
+    c->blocked += weight;
+    while (i < c->material_count && c->material[i] != material) i++;
+    if (i == HEMISPHERE_MATERIALS) return;
+    if (i == c->material_count) {
+        c->material[i] = material;
+        c->rays[i] = 0;
+        c->first[i] = cell;
+        c->material_count++;
+    }
+    c->rays[i]++;
+}
+
+#endif

@@ -1,0 +1,47 @@
+"""The tree that kernels trace, built by host/bvh.c itself."""
+import ctypes
+import pathlib
+import subprocess
+import tempfile
+
+import numpy
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SOURCES = ["bvh.c", "bvh_binary.c", "polygon.c", "status.c"]
+
+
+class Tables(ctypes.Structure):
+    _fields_ = [("node", ctypes.c_void_p), ("block", ctypes.c_void_p)]
+    _fields_ += [(name, ctypes.c_uint32) for name in ("node_count", "block_count", "triangle_count")]
+    _fields_ += [("low", ctypes.c_float * 3), ("high", ctypes.c_float * 3)]
+
+
+def _load():
+    with tempfile.TemporaryDirectory() as folder:
+        library = f"{folder}/bvh.so"
+        sources = [str(ROOT / "host" / name) for name in SOURCES]
+        flags = ["-std=c11", "-D_GNU_SOURCE", "-O2", "-shared", "-fPIC"]
+        subprocess.run(["cc", *flags, "-o", library, *sources, "-lm"], check=True)
+        bvh = ctypes.CDLL(library)
+    bvh.bvh_look.restype = ctypes.POINTER(Tables)
+    return bvh
+
+
+_bvh = _load()
+
+
+def build(corner, position):
+    """Returns node bytes, block bytes, low and high."""
+    corner = numpy.ascontiguousarray(corner, numpy.uint32)
+    position = numpy.ascontiguousarray(position, numpy.float32)
+    tree = ctypes.c_void_p()
+    code = _bvh.bvh_build(ctypes.byref(tree), ctypes.c_uint32(len(corner)),
+                          corner.ctypes.data_as(ctypes.c_void_p),
+                          position.ctypes.data_as(ctypes.c_void_p))
+    assert code == 0
+    tables = _bvh.bvh_look(tree).contents
+    nodes = numpy.frombuffer(ctypes.string_at(tables.node, 256 * tables.node_count), numpy.uint8)
+    blocks = numpy.frombuffer(ctypes.string_at(tables.block, 320 * tables.block_count), numpy.uint8)
+    low, high = numpy.array(tables.low), numpy.array(tables.high)
+    _bvh.bvh_free(tree)
+    return nodes, blocks, low, high
