@@ -29,25 +29,25 @@ kernel void hemisphere(const uint count, const uint cell_count, const world_reco
     background_record back = {.shape_factor = 1.0f, .material = RECORD_NONE, .facet = RECORD_NONE};
     const hemisphere_frame frame = hemisphere_frame_of(at.normal);
     hemisphere_count met;
-    float local[4], direction[3];
+    float in_frame[4], direction[3];
     hit_record record;
 
     hemisphere_count_clear(&met);
     for (uint c = 0; at.facet != RECORD_NONE && c < cell_count; c++) {
-        vstore4(vload4(c, cell), 0, local);
-        hemisphere_direction(&frame, local, direction);
+        vstore4(vload4(c, cell), 0, in_frame);
+        hemisphere_direction(&frame, in_frame, direction);
         const ray r = ray_leaving(at.point, at.normal, world.offset_m, direction);
         record.facet = ray_closest(nodes, blocks, &r).facet;
         if (record.facet == RECORD_NONE && !ray_meet_ground(&world, &r, &record))
-            met.open += local[3];
+            met.open += in_frame[3];
         else
-            hemisphere_count_met(&met, c, local[3], facet[record.facet].material,
+            hemisphere_count_met(&met, c, in_frame[3], facet[record.facet].material,
                                  temperature_k[record.facet]);
     }
     if (met.met_count > 0) {
         const uint best = commonest(&met, material);
-        vstore4(vload4(met.first[best], cell), 0, local);
-        hemisphere_direction(&frame, local, direction);
+        vstore4(vload4(met.first[best], cell), 0, in_frame);
+        hemisphere_direction(&frame, in_frame, direction);
         const ray r = ray_leaving(at.point, at.normal, world.offset_m, direction);
         record = ray_record(blocks, &r, ray_closest(nodes, blocks, &r));
         if (record.facet == RECORD_NONE) ray_meet_ground(&world, &r, &record);

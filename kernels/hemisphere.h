@@ -33,18 +33,19 @@ static inline hemisphere_frame hemisphere_frame_of(const float normal[3])
 }
 
 /* Turns a direction of the grid (upslope, across, normal) into the world's. */
-static inline void hemisphere_direction(const hemisphere_frame *f, const float local[3],
+static inline void hemisphere_direction(const hemisphere_frame *f, const float in_frame[3],
                                         float out[3])
 {
     for (int k = 0; k < 3; k++)
-        out[k] = (local[0] * f->upslope[k] + local[1] * f->across[k]) + local[2] * f->normal[k];
+        out[k] =
+            (in_frame[0] * f->upslope[k] + in_frame[1] * f->across[k]) + in_frame[2] * f->normal[k];
 }
 
 /* What was met above one point: each material once, with its rays and the first of them. */
 typedef struct hemisphere_count {
     uint material[HEMISPHERE_MATERIALS], rays[HEMISPHERE_MATERIALS], first[HEMISPHERE_MATERIALS];
     uint material_count, met_count;
-    float open, blocked; /* sums of weights */
+    float open, blocked;    /* sums of weights */
     float base_k, excess_k; /* first temperature met, and the sum of what the others exceed it by */
 } hemisphere_count;
 
