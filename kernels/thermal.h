@@ -69,7 +69,8 @@ static inline thermal_body thermal_body_of(facet_record facet, material_record m
 
     for (int i = 0; i < 3; i++) body.normal[i] = facet.normal[i];
     body.two_sided = facet.two_sided;
-    body.slab = material.exposed_area < 0.0f && facet.thickness_m > 0.0f;
+    body.slab = material.exposed_area < 0.0f && facet.thickness_m > 0.0f &&
+                material.conductivity_w_m_k > 0.0f;
     body.front = fmin(1.0f, twice);
     body.back = fmax(0.0f, twice - 1.0f);
     body.absorptance = material.solar_absorptance;

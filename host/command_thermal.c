@@ -1,0 +1,200 @@
+#include "command.h"
+#include "command_value.h"
+#include "constants.h"
+#include "material.h"
+#include "thermal.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char help[] =
+    "usage: radsig thermal --materials FILE --material NAME --weather FILE --site LAT,LON\n"
+    "                      --date YYYY-MM-DD --utc-offset H --thickness-cm X\n"
+    "                      [--slope D --azimuth D --power-w-m2 X --model therm]\n"
+    "\n"
+    "Takes one facet in full sun through a weather history and prints time_h,temperature_c, a row\n"
+    "per weather record. Degrees north and east are positive.\n"
+    "\n"
+    "  --date         the last full day of the history: hours 24 to 48 of 48 hours\n"
+    "  --utc-offset   hours that local time is ahead of UTC\n"
+    "  --slope        0 level and facing up (the default), 90 a wall\n"
+    "  --azimuth      of the outward normal, clockwise from north (default 0)\n"
+    "  --power-w-m2   self-generated (default 0)\n";
+
+typedef struct thermal_request {
+    const char *materials, *material, *weather;
+    site place;
+    double slope_deg, azimuth_deg, thickness_cm, power_w_m2;
+} thermal_request;
+
+enum { MATERIALS, MATERIAL, WEATHER, SITE, DATE, OFFSET, SLOPE, AZIMUTH, THICKNESS, POWER, MODEL };
+enum { VALUES = MODEL + 1, HELP = VALUES, REQUIRED = SLOPE };
+
+static const struct option options[] = {[MATERIALS] = {"materials", 1, NULL, MATERIALS},
+                                        [MATERIAL] = {"material", 1, NULL, MATERIAL},
+                                        [WEATHER] = {"weather", 1, NULL, WEATHER},
+                                        [SITE] = {"site", 1, NULL, SITE},
+                                        [DATE] = {"date", 1, NULL, DATE},
+                                        [OFFSET] = {"utc-offset", 1, NULL, OFFSET},
+                                        [SLOPE] = {"slope", 1, NULL, SLOPE},
+                                        [AZIMUTH] = {"azimuth", 1, NULL, AZIMUTH},
+                                        [THICKNESS] = {"thickness-cm", 1, NULL, THICKNESS},
+                                        [POWER] = {"power-w-m2", 1, NULL, POWER},
+                                        [MODEL] = {"model", 1, NULL, MODEL},
+                                        [HELP] = {"help", 0, NULL, HELP},
+                                        {0}};
+
+static int check_number(const char *text, int option, double low, double high, double *out)
+{
+    if (!text || command_number(text, low, high, out)) return 0;
+    return command_misuse("thermal", "--%s '%s': expected a number from %g to %g",
+                          options[option].name, text, low, high);
+}
+
+static int check_place(char *value[VALUES], site *out)
+{
+    char midnight[64];
+    double offset_h = 0.0;
+    int unused;
+
+    if (!command_place(value[SITE], &out->latitude_deg, &out->longitude_deg))
+        return command_misuse("thermal", "--site '%s': expected LAT,LON in degrees", value[SITE]);
+    if (check_number(value[OFFSET], OFFSET, -14.0, 14.0, &offset_h)) return EXIT_USAGE;
+    snprintf(midnight, sizeof midnight, "%.40sT00:00:00Z", value[DATE]);
+    if (site_parse_time(midnight, &out->time_s, &unused) != STATUS_OK)
+        return command_misuse("thermal", "--date '%s': expected YYYY-MM-DD", value[DATE]);
+    out->utc_offset_min = (int)lround(60.0 * offset_h);
+    out->time_s -= 60.0 * out->utc_offset_min;
+    return 0;
+}
+
+static int check_values(char *value[VALUES], thermal_request *out)
+{
+    for (int i = 0; i < REQUIRED; i++)
+        if (!value[i]) return command_misuse("thermal", "needs --%s", options[i].name);
+    if (!value[THICKNESS])
+        return command_misuse("thermal",
+                              "needs --thickness-cm: a material has none, its facets have");
+    if (value[MODEL] && strcmp(value[MODEL], "therm"))
+        return command_misuse("thermal", "--model '%s' is not available, expected therm",
+                              value[MODEL]);
+    if (check_place(value, &out->place)) return EXIT_USAGE;
+    if (check_number(value[SLOPE], SLOPE, 0.0, 180.0, &out->slope_deg) ||
+        check_number(value[AZIMUTH], AZIMUTH, -360.0, 360.0, &out->azimuth_deg) ||
+        check_number(value[THICKNESS], THICKNESS, 1e-4, 1e4, &out->thickness_cm) ||
+        check_number(value[POWER], POWER, 0.0, 1e6, &out->power_w_m2))
+        return EXIT_USAGE;
+    out->materials = value[MATERIALS];
+    out->material = value[MATERIAL];
+    out->weather = value[WEATHER];
+    return 0;
+}
+
+/* Returns 0, -1 where help is asked for, or the exit code of a misuse. */
+static int read_arguments(int argc, char **argv, thermal_request *out)
+{
+    char *value[VALUES] = {0};
+    int option;
+
+    opterr = 0;
+    while ((option = getopt_long(argc, argv, "+:", options, NULL)) != -1) {
+        if (option == HELP) return -1;
+        if (option < 0 || option >= VALUES)
+            return command_misuse("thermal", "'%s' %s", argv[optind - 1],
+                                  option == ':' ? "needs a value" : "is no option");
+        value[option] = optarg;
+    }
+    if (optind < argc) return command_misuse("thermal", "'%s' is no option", argv[optind]);
+    return check_values(value, out);
+}
+
+static facet_record facet_of(const thermal_request *request)
+{
+    const double slope = request->slope_deg * M_PI / 180.0;
+    const double azimuth = request->azimuth_deg * M_PI / 180.0;
+
+    return (facet_record){
+        .normal = {(float)(sin(slope) * sin(azimuth)), (float)(sin(slope) * cos(azimuth)),
+                   (float)cos(slope)},
+        .slope_rad = (float)slope,
+        .azimuth_rad = (float)azimuth,
+        .thickness_m = (float)(0.01 * request->thickness_cm),
+        .power_w_m2 = (float)request->power_w_m2,
+    };
+}
+
+static material_record record_of(const material *m)
+{
+    return (material_record){
+        .density_kg_m3 = (float)m->density_kg_m3,
+        .specific_heat_j_kg_k = (float)m->specific_heat_j_kg_k,
+        .conductivity_w_m_k = (float)m->conductivity_w_m_k,
+        .solar_absorptance = (float)m->solar_absorptance,
+        .thermal_emissivity = (float)m->thermal_emissivity,
+        .exposed_area = (float)m->exposed_area,
+    };
+}
+
+static status compute(const facet_record *facet, const material_record *matter, const weather *w,
+                      const site *place, float *out_temperature_k)
+{
+    status rc = STATUS_OK;
+    device *dev = NULL;
+    device_memory facets = NULL, materials = NULL;
+    forcing_record *forcing = calloc(w->count, sizeof *forcing);
+
+    NEED(forcing, STATUS_MEMORY, "no memory for %zu steps", w->count);
+    thermal_forcing(forcing, w, place);
+    TRY(device_open(&dev, -1));
+    TRY(device_allocate(dev, &facets, sizeof *facet, facet));
+    TRY(device_allocate(dev, &materials, sizeof *matter, matter));
+    TRY(thermal_history(dev, facets, materials, 1, forcing, w->count, w->interval_s,
+                        out_temperature_k));
+out:
+    device_release(facets);
+    device_release(materials);
+    device_free(dev);
+    free(forcing);
+    return rc;
+}
+
+static status run(const thermal_request *request)
+{
+    status rc = STATUS_OK;
+    material_library *library = NULL;
+    weather *w = NULL;
+    float *temperature_k = NULL;
+    const facet_record facet = facet_of(request);
+    material_record matter;
+
+    TRY(material_library_read(&library, request->materials));
+    const material *named = material_by_name(library, request->material);
+    NEED(named, STATUS_ARGUMENT, "%s: has no material '%s'", request->materials, request->material);
+    matter = record_of(named);
+    TRY(weather_read(&w, request->weather));
+    temperature_k = malloc(w->count * sizeof *temperature_k);
+    NEED(temperature_k, STATUS_MEMORY, "no memory for %zu temperatures", w->count);
+    TRY(compute(&facet, &matter, w, &request->place, temperature_k));
+    puts("time_h,temperature_c");
+    for (size_t i = 0; i < w->count; i++)
+        printf("%.4f,%.4f\n", w->record[i].time_h,
+               (double)temperature_k[i] - (double)ZERO_CELSIUS_K);
+out:
+    free(temperature_k);
+    weather_free(w);
+    material_library_free(library);
+    return rc;
+}
+
+int command_thermal(int argc, char **argv)
+{
+    thermal_request request = {0};
+    const int misuse = read_arguments(argc, argv, &request);
+
+    if (misuse < 0) fputs(help, stdout);
+    if (misuse) return misuse < 0 ? 0 : misuse;
+    return command_end("thermal", run(&request));
+}
