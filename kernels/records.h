@@ -160,7 +160,7 @@ typedef struct band_record {
 RECORD_SIZE(band_record, 32);
 
 /* Band radiance of a black body: ln L at BAND_TEMPERATURES temperatures, evenly spaced in ln T. */
-#define BAND_TEMPERATURES 4096u
+#define BAND_TEMPERATURES 1024u
 #define BAND_LOWEST_K 1.0f
 #define BAND_HIGHEST_K 20000.0f
 

@@ -1,0 +1,29 @@
+/* Spectra: everything that depends on wavelength, sampled over the bands as the radiometry kernel
+ * reads it (kernels/records.h, SPECTRA_...). */
+#ifndef SPECTRA_H
+#define SPECTRA_H
+
+#include "../kernels/records.h"
+#include "band.h"
+#include "emissivity.h"
+
+#include <stdbool.h>
+
+typedef struct spectra {
+    uint32_t band_count, sample_count; /* samples of all bands, each padded to 16 */
+    double *wavenumber_cm1;            /* shape (sample_count) */
+    band_record *bands;                /* shape (band_count) */
+    double *centre_um, *width_um;      /* shape (band_count) */
+    uint32_t row_count;
+    float *rows; /* shape (row_count, sample_count) */
+} spectra;
+
+status spectra_build(spectra **out, const band *bands, uint32_t band_count, const atmosphere *air,
+                     bool thesis);
+void spectra_free(spectra *s);
+
+/* Samples an emissivity table, linear in wavenumber.
+ *   out   shape (EMISSIVITY_ANGLES, sample_count) */
+void spectra_sample_emissivity(const spectra *s, const emissivity *table, float *out);
+
+#endif

@@ -1,0 +1,101 @@
+/* Pixel: what the spectra of one pixel need to know: angles, temperatures, rows of tables. */
+#ifndef PIXEL_H
+#define PIXEL_H
+
+#include "sky.h"
+
+/* Interactions of a ray with the scene, as the plane `interaction` holds them (Figure 3-10). */
+#define INTERACTION_MISSED 0u
+#define INTERACTION_DIFFUSE 1u
+#define INTERACTION_SPECULAR_SKY 2u
+#define INTERACTION_SPECULAR_BACKGROUND 3u
+
+typedef struct pixel_state {
+    uint interaction;
+    float temperature_k;
+    float sunlit, sun_cosine; /* tau1c, cos(theta_S) */
+    float view_angle_deg;     /* theta: from the normal to the sensor */
+    lookup emissivity;
+    lookup path;        /* on theta_E */
+    float shape_factor; /* F */
+    float background_temperature_k;
+    float background_sunlit, background_sun_cosine; /* tau_SB, cos(theta_B) */
+    lookup background_emissivity;                   /* at theta_BT */
+    sky_lookup sky;                                 /* of a missed ray or of the specular bounce */
+} pixel_state;
+
+static inline float pixel_dot(const float *a, const float *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline float pixel_angle_deg(float cosine)
+{
+    return acos(cosine > 1.0f ? 1.0f : cosine < -1.0f ? -1.0f : cosine) * (180.0f / PI_F);
+}
+
+/* Unit direction from one point to another. */
+static inline void pixel_direction(const float *from, const float *to, float *out)
+{
+    float length;
+
+    for (int k = 0; k < 3; k++) out[k] = to[k] - from[k];
+    length = sqrt(pixel_dot(out, out));
+    for (int k = 0; k < 3; k++) out[k] /= length > 0.0f ? length : 1.0f;
+}
+
+/* Unit direction of the ray of a pixel. */
+static inline void pixel_ray(camera_record camera, uint columns, uint pixel, float *out)
+{
+    const float column = (float)(pixel % columns) + 0.5f, row = (float)(pixel / columns) + 0.5f;
+    float length;
+
+    for (int k = 0; k < 3; k++)
+        out[k] = camera.corner[k] + column * camera.across[k] + row * camera.down[k];
+    length = sqrt(pixel_dot(out, out));
+    for (int k = 0; k < 3; k++) out[k] /= length;
+}
+
+/* Sets what a pixel sees of its background, if anything is there. */
+static inline void pixel_set_background(pixel_state *state, radiometry_record frame,
+                                        material_record material, background_record background,
+                                        const float *target, float sunlit)
+{
+    float to_target[3];
+
+    pixel_direction(background.point, target, to_target);
+    state->background_temperature_k = background.mean_temperature_k;
+    state->background_sunlit = sunlit;
+    state->background_sun_cosine = pixel_dot(background.normal, frame.sun);
+    state->background_emissivity = lookup_emissivity(
+        material, pixel_angle_deg(pixel_dot(background.normal, to_target)), frame.thesis);
+}
+
+/* Which of the interactions a ray has that met a target. */
+static inline uint pixel_interaction(material_record target, background_record background)
+{
+    if (target.specular_share < 0.5f) return INTERACTION_DIFFUSE;
+    return background.facet == RECORD_NONE ? INTERACTION_SPECULAR_SKY
+                                           : INTERACTION_SPECULAR_BACKGROUND;
+}
+
+/* Sets what a pixel sees of its target; the interaction is set.
+ *   ray   unit, from the sensor to the target */
+static inline void pixel_set_target(pixel_state *state, radiometry_record frame, hit_record hit,
+                                    material_record material, const float *ray)
+{
+    const float cosine = -pixel_dot(hit.normal, ray);
+    const uint at_normal = frame.thesis && state->interaction == INTERACTION_DIFFUSE;
+    float bounce[3];
+
+    state->view_angle_deg = pixel_angle_deg(cosine);
+    state->sun_cosine = pixel_dot(hit.normal, frame.sun);
+    state->emissivity =
+        lookup_emissivity(material, at_normal ? 0.0f : state->view_angle_deg, frame.thesis);
+    state->path = lookup_regular(pixel_angle_deg(-ray[2]), frame.path_zenith_first_deg,
+                                 frame.path_zenith_step_deg, frame.path_count);
+    for (int k = 0; k < 3; k++) bounce[k] = ray[k] + 2.0f * cosine * hit.normal[k];
+    state->sky = sky_find(frame, bounce[0], bounce[1], bounce[2]);
+}
+
+#endif

@@ -1,0 +1,65 @@
+/* Spectrum: SPECTRUM_WIDTH neighbouring samples of a spectrum, handled at once. With width 1 it is
+ * a float: the scalar twin, and what the host compiles. */
+#ifndef SPECTRUM_H
+#define SPECTRUM_H
+
+#include "constants.h"
+#include "dialect.h"
+
+#if !defined(SPECTRUM_WIDTH) && defined(__OPENCL_C_VERSION__)
+#define SPECTRUM_WIDTH 16
+#elif !defined(SPECTRUM_WIDTH)
+#define SPECTRUM_WIDTH 1
+#endif
+
+#if SPECTRUM_WIDTH == 16
+
+typedef float16 spectrum;
+
+/* Samples 16 block .. 16 block + 15 of a row. */
+static inline spectrum spectrum_load(global const float *row, uint block)
+{
+    return vload16(block, row);
+}
+
+static inline float spectrum_sum(spectrum s)
+{
+    const float8 eight = s.lo + s.hi;
+    const float4 four = eight.lo + eight.hi;
+    const float2 two = four.lo + four.hi;
+
+    return two.x + two.y;
+}
+
+#elif SPECTRUM_WIDTH == 1
+
+typedef float spectrum;
+
+#ifdef __OPENCL_C_VERSION__
+static inline spectrum spectrum_load(global const float *row, uint block)
+{
+    return row[block];
+}
+#endif
+
+static inline float spectrum_sum(spectrum s)
+{
+    return s;
+}
+
+#endif
+
+/* Planck's law, eq. 2.4-5, W m-2 sr-1 um-1.
+ *   first    2 h c^2 / l^5, W m-2 sr-1 um-1
+ *   second   h c / (k l), K */
+static inline spectrum planck_radiance(spectrum first, spectrum second, float temperature_k)
+{
+    return first / (exp(second / temperature_k) - 1.0f);
+}
+
+static inline spectrum spectrum_mix(spectrum a, spectrum b, float share_of_b)
+{
+    return a + (b - a) * share_of_b;
+}
+
+#endif
