@@ -22,7 +22,7 @@ typedef struct geometry_part {
 /* Polygon `i` of the file is facet i. */
 typedef struct geometry_facet {
     const char *name, *material_name, *attribute;
-    const char *unused[3]; /* the three fields that hold null */
+    const char *unused[3]; /* three fields; "null" in the sample */
     int id[3];             /* object, part, face */
     uint32_t part;         /* index of its part */
     int material_code;
@@ -37,6 +37,7 @@ typedef struct geometry_facet {
     double last_number; /* as printed: 0 facing down and .25 on a wall in the sample; not used */
 } geometry_facet;
 
+/* Facets stand in the order of their parts, parts in the order of their objects. */
 typedef struct geometry_file {
     uint32_t object_count, part_count, facet_count, vertex_count;
     geometry_object *objects;
