@@ -6,7 +6,7 @@ import surfaces as of
 from gdb_file import Thing
 from vehicle import rounded
 
-BASE = -0.3
+BASE = -0.35  # parts of a house end at different depths, so that no two facets lie in one plane
 
 
 def arch(half_width, spring, rise, points):
@@ -20,18 +20,18 @@ def hangar(name, depth=32.0, half=15.0, pieces=10, points=29, leaves=3):
     thing, eaves, rise, head = Thing(name), 5.2, 4.2, 7.0
     sides = [shape.box((-depth + .3, y - .15, BASE), (-.3, y + .15, eaves + .15)) for y in (-half + .35, half - .35)]
     thing.add("WALLS", of.BRICK_WALL, *sides)
-    thing.add("BACK", of.BRICK_WALL, upright(arch(half - .2, eaves - .05, rise, points), -depth + .05, -depth + .35, BASE))
+    thing.add("BACK", of.BRICK_WALL, upright(arch(half - .25, eaves - .05, rise, points), -depth + .05, -depth + .35, BASE - .1))
     outline = arch(half, eaves, rise, points)
     thing.add("ROOF", of.SHEET, shape.strip(outline, -.12, -depth, .6, 0, pieces))
     thing.add("RIBS", of.FRAME, *[shape.strip(arch(half - .25, eaves - .1, rise, 13), .35, x, x + .2, 0)
                                   for x in np.linspace(-depth + 2, -2, 8)])
     thing.add("GABLE", of.SHEET, upright(arch(half - .2, eaves - .05, rise, points), -.3, -.05, head, narrow=.86))
-    piers = [shape.box((-.5, y - 1.1, BASE), (0.0, y + 1.1, eaves + .8)) for y in (-half + 1.3, half - 1.3)]
+    piers = [shape.box((-.5, y - 1.1, BASE - .05), (0.0, y + 1.1, eaves + .8)) for y in (-half + 1.25, half - 1.25)]
     thing.add("PIERS", of.WALL, *piers)
     for i in range(leaves):
         out = .15 + .25 * i
         thing.add(f"DOOR_{i + 1}", of.SHEET, *[panelled(out, y * (half - 2.3 - .5 * i), 4.2, head + .2) for y in (-1, 1)])
-    thing.add("RAIL", of.FRAME, shape.box((.05, -half - 1, head + .2), (1.0, half + 1, head + .45)))
+    thing.add("RAIL", of.FRAME, shape.box((.05, -half - 1, head + .15), (1.0, half + 1, head + .45)))
     add_roof_fittings(thing, depth, eaves + rise)
     add_inside(thing, depth, half)
     return thing
@@ -84,14 +84,14 @@ def bunker(name, scale=1.0, pieces=12, points=21):
     """A shelter: a concrete arch with steel doors under a bank of earth."""
     thing = Thing(name)
     thing.add("MOUND", of.EARTH, shape.loft(mound_rings(14 * scale, 8.6 * scale, 30 * scale, -2.5, pieces, points)))
-    curve = arch(8.2 * scale, BASE, 8.0 * scale, points)
+    curve = arch(8.2 * scale, BASE - .15, 8.0 * scale, points)
     thing.add("PORTAL", of.WALL, shape.strip(curve, -1.1 * scale, -5, 0, 0))
-    thing.add("FRONT", of.WALL, upright(arch(8.4 * scale, BASE, 8.2 * scale, 21)[1:-1], -2.9, -2.4, BASE))
-    leaves = [np.concatenate([shape.box((-2.45, y0, BASE), (-1.9, y1, 5.2 * scale)),
+    thing.add("FRONT", of.WALL, upright(arch(8.4 * scale, BASE, 8.2 * scale, 21)[1:-1], -2.9, -2.4, BASE - .05))
+    leaves = [np.concatenate([shape.box((-2.45, y0, BASE - .1), (-1.9, y1, 5.2 * scale)),
                               *[shape.box((-1.95, y0 + .1, z), (-1.75, y1 - .1, z + .3)) for z in np.linspace(.5, 4.4 * scale, 4)]])
               for y0, y1 in ((-5.6 * scale, -.03), (.03, 5.6 * scale))]
     thing.add("DOORS", of.FRAME, *leaves)
-    wings = [shape.prism([(0, BASE), (0, 4.0 * scale), (6, .8), (6, BASE)], y - .2, y + .2, 1) for y in (-10.2 * scale, 10.2 * scale)]
+    wings = [shape.prism([(0, BASE - .2), (0, 4.0 * scale), (6, .8), (6, BASE - .2)], y - .2, y + .2, 1) for y in (-10.2 * scale, 10.2 * scale)]
     thing.add("WING_WALLS", of.WALL, *[shape.moved(wing, (-2.6, 0, 0)) for wing in wings])
     pipes = [shape.revolve([(7.0 * scale, 0), (7.0 * scale, .25), (9.6 * scale, .25), (9.65 * scale, .45), (9.9 * scale, 0)], 12, (x * scale, 0, 0), axis=2)
              for x in (-7, -12)]
@@ -113,11 +113,11 @@ def tower(name):
     thing.add("MULLIONS", of.FRAME, *[shape.tube(a, b, .07, 4) for a, b in zip(octagon(3.52, 16.95), octagon(4.12, 19.65))])
     thing.add("ROOF", of.ROOF, shape.loft([octagon(r, z) for r, z in ((4.3, 19.5), (4.7, 19.7), (4.7, 20.0), (1.2, 20.6))]))
     rail = octagon(4.8, 18.0)
-    thing.add("RAIL", of.FRAME, *[shape.tube(a, b, .03, 4) for a, b in zip(rail, np.roll(rail, -1, 0))],
+    thing.add("RAIL", of.FRAME, *[shape.tube(a + .01 * (b - a), b + .01 * (a - b), .03, 4) for a, b in zip(rail, np.roll(rail, -1, 0))],
               *[shape.tube(a - (0, 0, 1.05), a + (0, 0, .02), .03, 4) for a in rail])
     thing.add("AERIALS", of.BARE_FRAME, *[shape.tube((x, y, 20.1), (x, y, h), .04, 5) for x, y, h in ((.5, .3, 25), (-1.5, 1, 23), (1, -1.6, 22.5))])
     thing.add("WINDOWS", of.PANE, *[shape.turned(shape.box((2.7, -.5, z), (2.96, .5, z + 1.2)), t, 2) for z in (4, 8, 12) for t in (0, 90, 180)])
-    thing.add("DOOR", of.FRAME, shape.box((2.9, -.6, BASE), (3.5, .6, 2.1)))
+    thing.add("DOOR", of.FRAME, shape.box((2.9, -.6, BASE - .05), (3.5, .6, 2.1)))
     return thing
 
 
@@ -132,11 +132,11 @@ def operations(name):
     thing.add("WALLS", of.BRICK_WALL, shape.box((-6, -14, BASE), (6, 14, 7.2)))
     thing.add("ROOF", of.ROOF, shape.box((-5.7, -13.7, 7.1), (5.7, 13.7, 7.3)))
     thing.add("PARAPET", of.WALL, *[shape.box(a, b) for a, b in (((-6.15, -14.15, 7.05), (-5.75, 14.15, 7.8)), ((5.75, -14.15, 7.05), (6.15, 14.15, 7.8)),
-              ((-5.8, -14.15, 7.06), (5.8, -13.75, 7.79)), ((-5.8, 13.75, 7.06), (5.8, 14.15, 7.79)))])
+              ((-5.8, -14.1, 7.06), (5.8, -13.75, 7.79)), ((-5.8, 13.75, 7.06), (5.8, 14.1, 7.79)))])
     thing.add("FRONT_WINDOWS", of.WARM_PANE, *windows(6, np.arange(-12, 13, 3.0), (1.0, 4.4), (1.6, 1.5), 1))
     thing.add("BACK_WINDOWS", of.WARM_PANE, *windows(-6, np.arange(-12, 13, 3.0), (1.0, 4.4), (1.6, 1.5), -1))
-    thing.add("DOOR", of.PLANK, shape.box((5.9, -13.2, BASE), (6.1, -11.9, .9)), shape.box((5.9, .7, BASE), (6.1, 2.2, .95)))
-    thing.add("MACHINES", of.BONNET_WARM, *[rounded((x, y, 7.2), (x + 2, y + 1.6, 8.5), .1, 0) for x, y in ((-3, -9), (-3, -5), (1.5, 6))])
+    thing.add("DOOR", of.PLANK, *[shape.box((5.9, y, BASE - .05), (6.06, y + 1.2, 2.2)) for y in (-11.1, .9)])
+    thing.add("MACHINES", of.BONNET_WARM, *[rounded((x, y, 7.25), (x + 2, y + 1.6, 8.5), .1, 0) for x, y in ((-3, -9), (-3, -5), (1.5, 6))])
     thing.add("FANS", of.FRAME, *[shape.revolve([(8.4, 0), (8.4, .6), (8.75, .6), (8.75, 0)], 14, (x + 1, y + .8, 0), axis=2) for x, y in ((-3, -9), (-3, -5), (1.5, 6))])
     thing.add("CANOPY", of.WALL, shape.box((5.8, -1.5, 3.2), (8.5, 4.5, 3.45)), shape.tube((8.2, -1.2, BASE), (8.2, -1.2, 3.3), .1, 8), shape.tube((8.2, 4.2, BASE), (8.2, 4.2, 3.3), .1, 8))
     return thing
@@ -149,8 +149,8 @@ def shed(name, depth=9.0, half=3.2, height=2.8):
     thing.add("WALLS", of.PLANK, shape.prism([(-half, BASE), (half, BASE), (half, height), (0, ridge), (-half, height)], -depth, 0, 0))
     slope = [(half + .4, height - .22), (0, ridge + .03), (-half - .4, height - .22)]
     thing.add("ROOF", of.SHINGLES, *[shape.strip(side, -.1, -depth - .4, .4, 0, 6) for side in (slope[:2], slope[1:])])
-    thing.add("DOOR", of.PLANK, shape.box((-.1, -1.2, BASE), (.06, 1.2, 2.3)))
-    thing.add("WINDOWS", of.PANE, *[shape.box((x, s * half - .05, 1.1), (x + 1.2, s * half + .05, 2.0)) for x in (-7, -4, -2) for s in (-1, 1)])
+    thing.add("DOOR", of.PLANK, shape.box((-.1, -1.2, BASE - .05), (.06, 1.2, 2.3)))
+    thing.add("WINDOWS", of.PANE, *[shape.box((x, s * half - .05, 1.1), (x + 1.2, s * half + .05, 2.0)) for x in (-6.5, -4, -2) for s in (-1, 1)])
     return thing
 
 
@@ -162,7 +162,7 @@ def fuel_tank(name, radius=5.0, height=6.5, sides=32):
     turn = np.radians(np.arange(0, 181, 9.0))
     steps = [shape.moved(shape.turned(shape.box((0, -.25, 0), (.9, .25, .06)), np.degrees(t), 2), ((radius - .05) * np.cos(t), (radius - .05) * np.sin(t), .2 + t / np.pi * (height - .3))) for t in turn]
     thing.add("STAIR", of.FRAME, *steps)
-    thing.add("PIPE", of.FRAME, shape.tube((radius - .1, -1, .6), (radius + 3.2, -1, .6), .15, 10), shape.tube((radius + 3.1, -1, BASE), (radius + 3.1, -1, .8), .15, 10))
+    thing.add("PIPE", of.FRAME, shape.tube((radius - .1, -1, .6), (radius + 3.2, -1, .6), .15, 10), shape.tube((radius + 3.1, -1, BASE), (radius + 3.1, -1, .8), .15, 9))
     r = radius + 2.5
     for i, (a, b) in enumerate((((-r, -r), (r, -r + .3)), ((-r, r - .3), (r, r)), ((-r, -r + .31), (-r + .3, r - .31)), ((r - .3, -r + .31), (r, r - .31))), 1):
         thing.add(f"BUND_{i}", of.WALL, shape.box((*a, BASE), (*b, 1.1)))
@@ -174,7 +174,7 @@ def floodlights(name, places):
     thing = Thing(name)
     for i, (x, y) in enumerate(places, 1):
         thing.add(f"MAST_{i}", of.FRAME, shape.revolve([(BASE, 0), (BASE, .22), (9, .14), (16, .09), (16, 0)], 10, (x, y, 0), axis=2),
-                  shape.box((x - .06, y - 1.3, 15.6), (x + .06, y + 1.3, 15.8)))
+                  shape.box((x - .06, y - 1.4, 15.6), (x + .06, y + 1.4, 15.8)))
         lamps = [shape.turned(shape.box((x + .05, y + k - .25, 15.8), (x + .35, y + k + .25, 16.2)), 35, 1, (x, y, 15.8)) for k in (-1.05, -.35, .35, 1.05)]
         thing.add(f"LAMPS_{i}", of.LAMP, *lamps)
     return thing

@@ -39,13 +39,13 @@ def body(stations, points, pieces):
 
 def add_body(thing, points, pieces):
     rings = body(FORWARD_BODY, points, pieces)
-    nose = RADOME_PIECES * pieces
-    thing.add("RADOME", of.RADOME, shape.loft(rings[:nose + 1]),
+    hull, nose, ends = shape.loft(rings), RADOME_PIECES * pieces * points, points - 2
+    thing.add("RADOME", of.RADOME, np.concatenate([hull[:nose], hull[-ends:-ends // 2]]),
               shape.tube((NOSE_X - .2, 0, 2.22), (NOSE_X + .9, 0, 2.22), .03))
-    thing.add("FUSELAGE", of.SKIN, shape.loft(rings[nose:]))
+    thing.add("FUSELAGE", of.SKIN, np.concatenate([hull[nose:-ends], hull[-ends // 2:]]))
     thing.add("CANOPY", of.CANOPY, shape.loft(body(CANOPY, points, pieces)))
     thing.add("SPINE", of.SKIN, shape.loft(body(SPINE, points // 2, pieces)))
-    for i, station in enumerate((4.25, 5.15, 6.45)):
+    for i, station in enumerate((4.25, 5.15, 6.40)):
         frame = [shape.superellipse(points, w + .03, 2.7, top + .025, 2.1) for w, top in [CANOPY_FRAME[i]] * 2]
         frame[0][:, 0], frame[1][:, 0] = NOSE_X - station, NOSE_X - station - .12
         thing.add("CANOPY_FRAME", of.SKIN, shape.loft(frame))
@@ -64,7 +64,7 @@ def intake(points, pieces):
     middle = inside.mean(0)
     inside[:, 1:] = middle[1:] + (inside[:, 1:] - middle[1:]) * [.90, .94]
     depth = np.linspace(0, 2.6, 4)[:, None, None] * [-1, 0, 0]
-    duct = inside + depth * [1, 1, 1]
+    duct = inside + depth
     duct[-1, :, 0] = duct[-1, :, 0].min()
     outer = np.concatenate([duct[:1], outside])
     return outer, duct
@@ -76,15 +76,14 @@ def add_trunks(thing, points, pieces, running):
     hole = np.concatenate([shape.skin(duct[::-1]), shape.cap(duct[-1][::-1])])
     if shape.volume(np.concatenate([hull, hole])) < 0:
         hull, hole = hull[:, ::-1], hole[:, ::-1]
-    ramp = shape.moved(shape.box((-.05, -.52, -.03), (1.9, .52, .03)), (0, 0, 0))
-    ramp = shape.moved(shape.turned(ramp, -10, 1), (NOSE_X - 9.1, 1.5, 2.42))
+    ramp = shape.turned(shape.box((-.05, -.52, -.03), (1.9, .52, .03)), -10, 1)
+    ramp = shape.moved(ramp, (NOSE_X - 9.1, 1.5, 2.42))
     for side, turn in (("LEFT", lambda b: b), ("RIGHT", shape.mirrored)):
         thing.add(f"TRUNK_{side}", of.SKIN, turn(hull))
         thing.add(f"INTAKE_{side}", of.DUCT_RUNNING if running else of.DUCT, turn(hole), turn(ramp))
 
 
 def add_engines(thing, sides, running):
-    shroud = [(-10.55, 0), (-10.55, .68), (-8.2, .80), (-8.0, .78)]
     metal, hot = (of.TAIL_METAL_RUNNING, of.EXHAUST_RUNNING) if running else (of.TAIL_METAL, of.EXHAUST)
     for side, y in (("LEFT", .94), ("RIGHT", -.94)):
         outside = np.array([(-8.0, .78), (-8.6, .80), (-9.4, .77), (-10.1, .73), (-10.6, .69), (-10.6, .60)])
@@ -141,7 +140,7 @@ def add_gear(thing, sides):
 def missile(y, z, station, sides):
     x = NOSE_X - station
     tube = shape.revolve([(x - 5.9, 0), (x - 5.9, .14), (x - .9, .15), (x - .5, .12), (x - .2, .06), (x, 0)], sides, (0, y, z))
-    fins = [shape.turned(shape.panel(((x - a, y, z), (x - b, y, z)), ((x - c, y + s, z), (x - b, y + s, z)), .03, 4), turn, 0, (0, y, z))
+    fins = [shape.turned(shape.panel(((x - a, y + .04, z), (x - b, y + .04, z)), ((x - c, y + s, z), (x - b, y + s, z)), .03, 4), turn, 0, (0, y, z))
             for a, b, c, s in ((3.6, 5.3, 5.0, .55), (1.3, 1.9, 1.8, .35)) for turn in (45, 135, 225, 315)]
     return [tube, *fins]
 

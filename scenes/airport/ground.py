@@ -6,10 +6,10 @@ import surfaces as of
 from gdb_file import Thing
 
 GRASS_TOP, PAVED_TOP = -1.0, -0.5  # as printed for the grass and the runway
-SUNK = -1.3                        # where slabs without a printed lower side end inside the earth
+SUNK = -1.3                        # where the apron ends inside the earth; others end a little above or below
 
 
-def slab(name, surface, east, north, top, bottom=SUNK):
+def slab(name, surface, east, north, top, bottom):
     thing = Thing(name)
     thing.add("", surface, shape.box((east[0], north[0], bottom), (east[1], north[1], top)))
     return thing
@@ -31,7 +31,7 @@ def stripe(low, high, top):
 
 def runway1(east=(400, 445), north=(-1200, 1100)):
     """The main runway with centre line, threshold bars and edge lights."""
-    thing = slab("RUNWAY1", of.RUNWAY, east, north, PAVED_TOP)
+    thing = slab("RUNWAY1", of.RUNWAY, east, north, PAVED_TOP, -1.5)
     thing.parts["SURFACE"] = thing.parts.pop("")
     middle = sum(east) / 2
     dashes = [stripe((middle - .45, n), (middle + .45, n + 30), PAVED_TOP) for n in np.arange(north[0] + 80, north[1] - 80, 50)]
@@ -39,7 +39,7 @@ def runway1(east=(400, 445), north=(-1200, 1100)):
     for name, start in (("SOUTH", north[0] + 6), ("NORTH", north[1] - 36)):
         bars = [stripe((e, start), (e + 1.8, start + 30), PAVED_TOP) for e in np.arange(east[0] + 3, east[1] - 4, 3.6)]
         thing.add(f"{name}_BARS", of.MARKING, *bars)
-    lights = [shape.box((e, n, GRASS_TOP - .1), (e + .2, n + .2, PAVED_TOP + .2)) for e in (east[0] - 2, east[1] + 2) for n in np.arange(north[0], north[1], 100)]
+    lights = [shape.box((e, n, GRASS_TOP - .1), (e + .2, n + .2, PAVED_TOP + .2)) for e in (east[0] - 2, east[1] + 2) for n in np.arange(north[0] + 7, north[1], 100)]
     thing.add("LIGHTS", of.LAMP, *lights)
     return thing
 
@@ -71,9 +71,9 @@ def apron_lines(target):
     """Painted guide lines and stands on the apron."""
     thing, (e, n) = Thing("MARKINGS"), target
     top = PAVED_TOP
-    thing.add("LEAD_OUT", of.MARKING, stripe((e + 14, n - .1), (e + 117, n + .1), top))
+    thing.add("LEAD_OUT", of.MARKING, stripe((e + 14, n - .1), (e + 83.7, n + .1), top), stripe((e + 85.1, n - .1), (e + 117, n + .1), top))
     thing.add("EDGE", of.MARKING, stripe((e + 84, n - 86), (e + 84.2, n + 86), top), stripe((e + 84.6, n - 86), (e + 84.8, n + 86), top))
-    ring = [shape.turned(stripe((-.95, 7.0), (.95, 7.25), top), a, 2) for a in range(0, 360, 15)]
+    ring = [shape.turned(stripe((-.85, 7.0), (.85, 7.25), top), a, 2) for a in range(0, 360, 15)]
     thing.add("HELIPAD", of.MARKING, *[shape.moved(bar, (e + 52, n - 20, 0)) for bar in ring],
               *[stripe((e + 52 + x, n - 22.5), (e + 52 + x + .5, n - 17.5), top) for x in (-1.8, 1.3)],
               stripe((e + 52 - 1.29, n - 20.25), (e + 52 + 1.29, n - 19.75), top))
@@ -81,8 +81,8 @@ def apron_lines(target):
     return thing
 
 
-def fence(facets, parts, corners):
-    """A fence of square posts round a rectangle, with exactly so many facets in so many parts.
+def fence(facets, parts, way):
+    """A fence of square posts along a line, with exactly so many facets in so many parts.
 
     Posts have six facets; as many as needed are three-cornered with five, which makes every sum reachable.
     """
@@ -90,14 +90,13 @@ def fence(facets, parts, corners):
         raise ValueError(f"the fence would get {facets} facets in {parts} parts, expected at least 40 and one post a part")
     slim = -facets % 6
     count = (facets - 5 * slim) // 6 + slim
-    (e0, n0), (e1, n1) = corners
-    way = np.array([(e0, n0), (e1, n0), (e1, n1), (e0, n1), (e0, n0)], float)
+    way = np.asarray(way, float)
     length = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1))])
-    at = np.arange(count) * length[-1] / count
+    at = np.linspace(0, length[-1], count)
     places = np.stack([np.interp(at, length, way[:, 0]), np.interp(at, length, way[:, 1])], 1).round(1)
     thing = Thing("FENCE")
     for i, (e, n) in enumerate(places):
-        post = shape.box((e - .06, n - .06, SUNK), (e + .06, n + .06, 1.2)) if i >= slim else \
-            shape.prism([(e - .06, n - .06), (e + .06, n - .06), (e, n + .06)], SUNK, 1.2, 2)
+        post = shape.box((e - .06, n - .06, -1.8), (e + .06, n + .06, 1.2)) if i >= slim else \
+            shape.prism([(e - .06, n - .06), (e + .06, n - .06), (e, n + .06)], -1.8, 1.2, 2)
         thing.add(f"SECTION_{i * parts // count + 1}", of.BARE_FRAME, post)
     return thing

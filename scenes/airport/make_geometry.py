@@ -28,12 +28,12 @@ def near(thing, east, north, heading_deg, height=ground.PAVED_TOP):
 def pavement():
     e, n = TARGET
     return [ground.runway2(), ground.runway1(),
-            ground.slab("TAXIWAY1", ground.of.RUNWAY, (-5, 35), (100, 124), -.52),
-            ground.slab("TAXIWAY2", ground.of.RUNWAY, (55, 405), (320, 345), -.52),
-            ground.slab("TAXIWAY3", ground.of.RUNWAY, (55, 405), (75, 100), -.52),
+            ground.slab("TAXIWAY1", ground.of.RUNWAY, (-5, 35), (100, 124), -.52, -1.4),
+            ground.slab("TAXIWAY2", ground.of.RUNWAY, (55, 405), (320, 345), -.52, -1.4),
+            ground.slab("TAXIWAY3", ground.of.RUNWAY, (55, 405), (75, 100), -.52, -1.4),
             ground.apron(e - 40, n - 90, 26, 30), ground.apron_lines(TARGET),
-            ground.slab("ROAD", ground.of.ROAD, (e - 54, e - 46), (n - 400, n + 300), -.9),
-            ground.slab("CAR_PARK", ground.of.ROAD, (e - 47, e - 39), (n + 16, n + 34), -.88)]
+            ground.slab("ROAD", ground.of.ROAD, (e - 54, e - 46), (n - 400, n + 300), -.9, -1.25),
+            ground.slab("CAR_PARK", ground.of.ROAD, (e - 47, e - 39), (n + 16, n + 34), -.88, -1.2)]
 
 
 def structures():
@@ -41,8 +41,8 @@ def structures():
     return [near(building.hangar("HANGAR1"), -3, 0, 90), near(building.hangar("HANGAR2", pieces=8, points=25), -3, -42, 90),
             near(building.hangar("HANGAR3", pieces=1, points=13), -3, -140, 90, on_grass),
             near(building.bunker("BUNKER1"), -6, 46, 90), near(building.bunker("BUNKER2", .8), -6, 78, 90),
-            near(building.bunker("BUNKER3", pieces=8, points=13), -20, 150, 90, on_grass),
-            near(building.bunker("BUNKER4", pieces=8, points=13), -20, 200, 90, on_grass),
+            near(building.bunker("BUNKER3", pieces=8, points=13), -8, 150, 90, on_grass),
+            near(building.bunker("BUNKER4", pieces=8, points=13), -8, 200, 90, on_grass),
             near(building.tower("TOWER"), -68, -6, 90, on_grass), near(building.operations("OPERATIONS"), -74, -38, 90, on_grass),
             near(building.shed("SHED1"), -58, 28, 90, on_grass), near(building.shed("SHED2", 7, 2.6), -60, 14, 90, on_grass)]
 
@@ -79,8 +79,8 @@ def assemble():
     things.insert(GRASS_PLACE - 1, ground.grass())
     facets = sum(len(gdb_file.part_facets(part)) for thing in things for part in thing.parts.values())
     parts = sum(len(thing.parts) for thing in things)
-    corners = (TARGET[0] - 110, TARGET[1] - 160), (TARGET[0] + 140, TARGET[1] + 230)
-    return things + [ground.fence(FACETS - facets, PARTS - parts, corners)]
+    way = [(TARGET[0] + e, TARGET[1] + n) for e, n in ((-58, -165), (-110, -165), (-110, 240), (-58, 240))]
+    return things + [ground.fence(FACETS - facets, PARTS - parts, way)]
 
 
 def main():

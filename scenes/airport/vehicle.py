@@ -54,7 +54,7 @@ def add_cab(thing, front):
     fenders = [rounded((front - 1.3, s - .3, .78), (front - .1, s + .3, 1.06), .1) for s in (-.9, .9)]
     thing.add("FENDERS", of.OLIVE, *fenders)
     thing.add("BUMPER", of.BUMPER, rounded((front - .05, -1.15, .55), (front + .12, 1.15, .8), .04, axis=1))
-    lamps = [shape.revolve([(front - .1, 0), (front - .1, .12), (front + .04, .12), (front + .06, 0)], 10, (0, y, 1.12)) for y in (-.85, .85)]
+    lamps = [shape.revolve([(front - .14, 0), (front - .14, .12), (front + .04, .12), (front + .06, 0)], 10, (0, y, 1.12)) for y in (-.85, .85)]
     thing.add("LAMPS", of.LAMP, *lamps)
 
 
@@ -70,7 +70,7 @@ def truck(name, sides=16, covered=True):
     add_frame(thing, -3.6, 3.6)
     add_cab(thing, 3.6)
     thing.add("BED", of.PLANK, shape.box((-3.7, -1.2, .9), (.5, 1.2, 1.02)))
-    boards = [shape.box((-3.7, y - .03, 1.0), (.5, y + .03, 1.6)) for y in (-1.18, 1.18)]
+    boards = [shape.box((-3.69, y - .03, 1.0), (.49, y + .03, 1.6)) for y in (-1.18, 1.18)]
     boards += [shape.box((x - .03, -1.13, 1.0), (x + .03, 1.13, 1.6)) for x in (-3.66, .46)]
     thing.add("BOARDS", of.PLANK, *boards)
     if covered:
@@ -107,7 +107,7 @@ def tug(name):
     thing = Thing(name)
     thing.add("BODY", of.OLIVE, rounded((-1.9, -1.1, .3), (1.9, 1.1, .95), .12))
     thing.add("CAB", of.BONNET_WARM, rounded((.3, -.8, .93), (1.7, .8, 1.3), .08))
-    thing.add("SEAT", of.CANVAS, rounded((-.6, -.7, .94), (-.1, .7, 1.3), .06, 1), rounded((-.75, -.7, 1.2), (-.55, .7, 1.7), .04, 1))
+    thing.add("SEAT", of.CANVAS, rounded((-.6, -.7, .94), (-.1, .7, 1.3), .06, 1), rounded((-.75, -.66, 1.2), (-.55, .66, 1.7), .04, 1))
     thing.add("BUMPERS", of.BUMPER, shape.box((1.85, -1.05, .35), (2.0, 1.05, .65)), shape.box((-2.0, -1.05, .35), (-1.85, 1.05, .65)))
     thing.add("TOWBAR", of.BARE_FRAME, shape.tube((-1.9, 0, .45), (-5.4, 0, .4), .06, 8), shape.tube((-5.4, -.4, .4), (-5.4, .4, .4), .05, 8))
     add_wheels(thing, "WHEELS", (1.2, -1.2), 1.02, .42, .28, 20)
@@ -132,7 +132,7 @@ def weapon_trailer(name):
     from foxbat import NOSE_X, missile
     thing = Thing(name)
     thing.add("BED", of.FRAME, shape.box((-3.2, -1.0, .62), (2.9, 1.0, .74)))
-    thing.add("CRADLES", of.PLANK, *[rounded((x, -1.0, .73), (x + .2, 1.0, .92), .02, 1) for x in (-2.3, -.8, .7)])
+    thing.add("CRADLES", of.PLANK, *[rounded((x, -.96, .73), (x + .2, .96, .92), .02, 1) for x in (-2.3, -.8, .7)])
     for i, y in enumerate((-.72, -.24, .24, .72), 1):
         thing.add(f"MISSILE_{i}", of.MISSILE, missile(y, 1.05, NOSE_X - 2.95, 12)[0])
     thing.add("BAR", of.FRAME, shape.tube((2.8, 0, .66), (4.3, 0, .4), .05, 8))
@@ -144,10 +144,10 @@ def radar_van(name):
     """A truck with a cabin and a dish on a mast."""
     thing = truck(name, 12)
     del thing.parts["COVER"]
-    thing.add("CABIN", of.OLIVE, rounded((-3.6, -1.15, 1.01), (.4, 1.15, 2.9), .15))
+    thing.add("CABIN", of.OLIVE, rounded((-3.58, -1.11, 1.01), (.38, 1.11, 2.9), .15))
     thing.add("MAST", of.FRAME, shape.tube((-1.6, 0, 2.8), (-1.6, 0, 4.6), .12, 10))
     r = np.linspace(0, 1.7, 7)
-    front, back = np.stack([.09 * r**2 * 2, r], 1), np.stack([.09 * r**2 * 2 - .06, r], 1)
+    front, back = np.stack([.18 * r**2, r], 1), np.stack([.18 * r**2 - .06, r], 1)
     dish = shape.revolve(np.concatenate([front, back[::-1]]), 28, (0, 0, 0))
     thing.add("DISH", of.SKIN, shape.moved(shape.turned(dish, -25, 1), (-1.5, 0, 5.2)))
     thing.add("FEED", of.BARE_FRAME, shape.tube((-1.6, 0, 4.6), (-.1, 0, 5.85), .04, 6))
