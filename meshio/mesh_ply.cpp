@@ -7,11 +7,20 @@
 #include "ply_header.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <memory>
 
 namespace
 {
+
+std::string shown(double number)
+{
+    char text[32];
+
+    std::snprintf(text, sizeof text, "%.10g", number);
+    return text;
+}
 
 /* The numbers behind the header, one after the other. */
 class ply_body
@@ -29,7 +38,7 @@ class ply_body
         const double count = next(type);
 
         if (!(count >= 0) || count != std::floor(count))
-            fail("a list of " + std::to_string(count) + " numbers");
+            fail("a list of " + shown(count) + " numbers");
         return static_cast<std::size_t>(count);
     }
 };
@@ -50,7 +59,7 @@ class ply_text : public ply_body
         return lines_.number(word);
     }
 
-    [[noreturn]] void fail(const std::string &what) const override
+    void fail(const std::string &what) const override
     {
         lines_.fail(what);
     }
@@ -103,12 +112,12 @@ class ply_binary : public ply_body
         case ply_type::float32:
             return static_cast<double>(take<float>());
         case ply_type::float64:
-            return take<double>();
+            break;
         }
-        fail("a type that is none");
+        return take<double>();
     }
 
-    [[noreturn]] void fail(const std::string &what) const override
+    void fail(const std::string &what) const override
     {
         throw failure(path_ + ": " + what);
     }
@@ -169,9 +178,8 @@ void read_corners(mesh_soup &soup, ply_body &body, const ply_property &property,
         const double index = body.next(property.type);
         if (!(index >= 0) || index >= static_cast<double>(vertex_count) ||
             index != std::floor(index))
-            body.fail("face " + std::to_string(soup.face_count()) + ": vertex " +
-                      std::to_string(index) + ", expected one of 0 to " +
-                      std::to_string(vertex_count) + " - 1");
+            body.fail("face " + std::to_string(soup.face_count()) + ": vertex " + shown(index) +
+                      ", expected one of 0 to " + std::to_string(vertex_count - 1));
         soup.corner.push_back(static_cast<std::uint32_t>(index));
     }
     soup.end_face();
@@ -182,7 +190,7 @@ void read_material(mesh_soup &soup, ply_body &body, const ply_property &property
     const double number = body.next(property.type);
 
     if (!(std::fabs(number) < 1e9) || number != std::floor(number))
-        body.fail("material " + std::to_string(number) + ", expected an integer");
+        body.fail("material " + shown(number) + ", expected an integer");
     soup.material.push_back(soup.materials.number_of(std::to_string(static_cast<long>(number))));
 }
 

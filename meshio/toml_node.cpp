@@ -109,7 +109,7 @@ extern "C" int toml_node_numbers(const double **out, std::size_t *out_count, con
     if (node->kind != TOML_ARRAY)
         return refuse(*node, "an array of numbers", message, message_size);
     for (const auto &child : node->child)
-        if (!is_number(*child)) return refuse(*child, "a number", message, message_size);
+        if (!is_number(*child)) return refuse(*child, "a finite number", message, message_size);
     *out = node->numbers.data();
     *out_count = node->numbers.size();
     return 0;

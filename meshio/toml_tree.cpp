@@ -1,6 +1,7 @@
 #include "toml_tree.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <sstream>
 
 namespace
@@ -8,21 +9,35 @@ namespace
 
 const std::size_t longest_text = 60;
 
-template <typename T> std::string streamed(T &&value)
+std::string streamed(const toml::date_time &time)
 {
     std::ostringstream stream;
 
-    stream << value;
+    stream << time;
     return stream.str();
 }
 
-/* As TOML on one line. */
+/* As TOML on one line, numbers with as few digits as tell them apart. */
 std::string text_of(const toml::node &value)
 {
     if (value.is_table()) return "a table";
-    std::string text = streamed(toml::toml_formatter(value));
+    if (const auto *string = value.as_string()) return '"' + **string + '"';
+    if (const auto *number = value.as_floating_point()) {
+        char digits[32];
+        return {digits, std::to_chars(digits, digits + sizeof digits, **number).ptr};
+    }
+    if (const auto *array = value.as_array()) {
+        std::string text = "[";
+        for (const toml::node &one : *array) text += (text.size() > 1 ? ", " : "") + text_of(one);
+        return text + ']';
+    }
+    std::ostringstream stream;
+    stream << toml::toml_formatter(value);
+    return stream.str();
+}
 
-    std::replace(text.begin(), text.end(), '\n', ' ');
+std::string cut(const std::string &text)
+{
     return text.size() > longest_text ? text.substr(0, longest_text) + "..." : text;
 }
 
@@ -96,7 +111,7 @@ std::unique_ptr<toml_node> child_of(const toml_node &parent, const toml::node &v
     auto node = std::make_unique<toml_node>();
 
     node->name = parent.name.empty() ? name : parent.name + "." + name;
-    node->text = text_of(value);
+    node->text = cut(text_of(value));
     place(*node, value, key);
     if (const toml::table *table = value.as_table())
         add_table(*node, *table);
