@@ -13,7 +13,7 @@ PROGRAM := $(if $(SAN),$(BUILD),build)/radsig
 
 PACKAGES := build-essential pkg-config python3 python3-numpy python3-pyopencl python3-pytest \
 	python3-spectral pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libopenmesh-dev \
-	libtinyobjloader-dev libopenimageio-dev libtomlplusplus-dev libcmocka-dev fonts-dejavu-core
+	libtinyobjloader-dev libopenimageio-dev libtomlplusplus-dev libcmocka-dev libmd-dev fonts-dejavu-core
 LINT_PACKAGES := clang-format clang cppcheck python3-venv
 
 # A plain python3 on the path may lack Debian's packages.
@@ -28,7 +28,7 @@ CFLAGS = -std=c11 -D_DEFAULT_SOURCE -D_POSIX_C_SOURCE=200809L -O2 -g -ffp-contra
 	-Wdouble-promotion $(SANITIZE)
 CXXFLAGS = -std=c++17 -O2 -g -ffp-contract=off $(WARNINGS) -Wno-maybe-uninitialized $(SANITIZE) \
 	$(shell pkg-config --cflags OpenImageIO tomlplusplus 2>/dev/null)
-LDLIBS = -lOpenCL -lOpenMeshCore $(shell pkg-config --libs OpenImageIO tomlplusplus 2>/dev/null) -lm
+LDLIBS = -lOpenCL -lOpenMeshCore $(shell pkg-config --libs OpenImageIO tomlplusplus 2>/dev/null) -lmd -lm
 
 HOST := $(filter-out host/main.c host/command%,$(wildcard host/*.c))
 COMMANDS := host/main.c $(wildcard host/command*.c)

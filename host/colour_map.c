@@ -47,11 +47,11 @@ void colour_map_id(uint32_t id, uint8_t out_rgb[3])
 void colour_map_category(uint32_t n, uint8_t out_rgb[3])
 {
     enum { COUNT = 22 };
-    /* Kelly's white and black come last: both are near the margin's colour or no data's. */
+    /* Light blue, white and black come last: they are near no data, the margin and the text. */
     static const uint32_t kelly[COUNT] = {
-        0xf3c300, 0x875692, 0xf38400, 0xa1caf1, 0xbe0032, 0xc2b280, 0x848482, 0x008856,
-        0xe68fac, 0x0067a5, 0xf99379, 0x604e97, 0xf6a600, 0xb3446c, 0xdcd300, 0x882d17,
-        0x8db600, 0x654522, 0xe25822, 0x2b3d26, 0xf2f3f4, 0x222222};
+        0xf3c300, 0x875692, 0xf38400, 0xbe0032, 0xc2b280, 0x848482, 0x008856, 0xe68fac,
+        0x0067a5, 0xf99379, 0x604e97, 0xf6a600, 0xb3446c, 0xdcd300, 0x882d17, 0x8db600,
+        0x654522, 0xe25822, 0x2b3d26, 0xa1caf1, 0xf2f3f4, 0x222222};
 
     if (n >= COUNT) {
         colour_map_id(n, out_rgb);

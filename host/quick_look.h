@@ -25,7 +25,8 @@ typedef struct quick_look {
  * heat, all else in grey. */
 quick_look_colours quick_look_colours_of(const image_plane *plane);
 
-/* Writes the file `name`: pixels 1:1, or enlarged by a whole factor until the shorter side has 256;
+/* Writes the file `name`: pixels 1:1, or enlarged by a whole factor until the shorter side has 256 (the
+ * longer no more than 4096);
  * the bar spans the 0.5 to 99.5 percentile of the values. Fails with STATUS_FILE if it cannot be
  * written or the font (Debian's fonts-dejavu-core) is missing. */
 status quick_look_write(output_folder *folder, const char *name, const quick_look *look);
