@@ -1,7 +1,8 @@
 """Bodies as arrays of facets, shape (facet, 4, 3) in metres, counter-clockwise seen from outside.
 
-A triangle repeats one vertex, so that every body is one array; facet_list() makes real triangles of them.
+A triangle repeats one vertex, so that every body is one array; facet_list() makes it a triangle.
 """
+
 import numpy as np
 
 
@@ -23,8 +24,10 @@ def volume(body):
     """Signed: positive when the facets of a closed body look outwards."""
     origin = body[0, 0]
     p = body - origin
-    return (np.einsum("ij,ij->i", p[:, 0], np.cross(p[:, 1], p[:, 2]))
-            + np.einsum("ij,ij->i", p[:, 0], np.cross(p[:, 2], p[:, 3]))).sum() / 6
+    return (
+        np.einsum("ij,ij->i", p[:, 0], np.cross(p[:, 1], p[:, 2]))
+        + np.einsum("ij,ij->i", p[:, 0], np.cross(p[:, 2], p[:, 3]))
+    ).sum() / 6
 
 
 def outward(body):
@@ -54,7 +57,7 @@ def loft(rings):
 
 
 def prism(profile, low, high, axis):
-    """A convex profile drawn out along axis 0, 1 or 2; the profile holds the two other axes in order."""
+    """A convex profile drawn out along axis 0, 1 or 2; it holds the two other axes in order."""
     rings = np.insert(np.asarray(profile, float), axis, 0, axis=1)
     rings = np.stack([rings, rings])
     rings[0, :, axis], rings[1, :, axis] = low, high
@@ -62,7 +65,7 @@ def prism(profile, low, high, axis):
 
 
 def strip(outline, thickness, low, high, axis, pieces=1):
-    """A bent sheet: an open outline with a thickness to its left, drawn out along an axis in pieces."""
+    """A bent sheet: an open outline with a thickness to its left, drawn out along an axis."""
     outline = np.asarray(outline, float)
     along = np.gradient(outline, axis=0)
     normal = np.stack([-along[:, 1], along[:, 0]], 1) / np.linalg.norm(along, axis=1)[:, None]
@@ -109,23 +112,32 @@ def smooth(stations, pieces):
     stations = np.asarray(stations, float)
     x = stations[:, 0]
     slope = np.gradient(stations, x, axis=0)
-    at = np.concatenate([np.linspace(a, b, pieces, endpoint=False) for a, b in zip(x, x[1:])] + [x[-1:]])
+    at = np.concatenate(
+        [np.linspace(a, b, pieces, endpoint=False) for a, b in zip(x, x[1:])] + [x[-1:]]
+    )
     i = np.clip(np.searchsorted(x, at, "right") - 1, 0, len(x) - 2)
     width = (x[i + 1] - x[i])[:, None]
     t = (at - x[i])[:, None] / width
-    return ((2 * t**3 - 3 * t**2 + 1) * stations[i] + (t**3 - 2 * t**2 + t) * width * slope[i]
-            + (3 * t**2 - 2 * t**3) * stations[i + 1] + (t**3 - t**2) * width * slope[i + 1])
+    return (
+        (2 * t**3 - 3 * t**2 + 1) * stations[i]
+        + (t**3 - 2 * t**2 + t) * width * slope[i]
+        + (3 * t**2 - 2 * t**3) * stations[i + 1]
+        + (t**3 - t**2) * width * slope[i + 1]
+    )
 
 
 def panel(root, tip, thickness, chord_points, pieces=1):
-    """A wing: root and tip are (leading edge, trailing edge) points, the section a biconvex lens."""
+    """A wing with a biconvex section; root and tip are (leading edge, trailing edge) points."""
     (root_front, root_back), (tip_front, tip_back) = np.asarray(root, float), np.asarray(tip, float)
     t = (1 - np.cos(np.linspace(0, np.pi, chord_points)))[:, None] / 2
     up = np.cross(root_back - root_front, tip_front - root_front)
     up /= np.linalg.norm(up)
     rings = []
     for share in np.linspace(0, 1, pieces + 1):
-        front, back = root_front + share * (tip_front - root_front), root_back + share * (tip_back - root_back)
+        front, back = (
+            root_front + share * (tip_front - root_front),
+            root_back + share * (tip_back - root_back),
+        )
         half = 2 * thickness * np.linalg.norm(back - front) * t * (1 - t) * up
         middle = front + t * (back - front)
         rings.append(np.concatenate([middle + half, (middle - half)[-2:0:-1]]))
@@ -152,7 +164,7 @@ def turned(body, angle_deg, axis, about=(0, 0, 0)):
 
 
 def facet_list(body, warp_limit_m):
-    """Single facets of three or four vertices: repeated vertices and empty facets go, warped quads split.
+    """Single facets of three or four vertices: repeated vertices go, warped quads are split.
 
     A quad is warped where its diagonals pass each other by more than the limit.
     """
@@ -160,10 +172,14 @@ def facet_list(body, warp_limit_m):
     along, across = body[:, 2] - body[:, 0], body[:, 3] - body[:, 1]
     twice_area = np.cross(along, across)
     size = np.linalg.norm(twice_area, axis=1)
-    warp = np.abs(np.einsum("ij,ij->i", twice_area, body[:, 1] - body[:, 0])) / np.maximum(size, 1e-30)
+    warp = np.abs(np.einsum("ij,ij->i", twice_area, body[:, 1] - body[:, 0])) / np.maximum(
+        size, 1e-30
+    )
     same = (body == np.roll(body, -1, 1)).all(2)
     first_diagonal_shorter = (along**2).sum(1) <= (across**2).sum(1)
-    for quad, equal, count, bend, first in zip(body, same, same.sum(1), warp, first_diagonal_shorter):
+    for quad, equal, count, bend, first in zip(
+        body, same, same.sum(1), warp, first_diagonal_shorter
+    ):
         if count == 0 and bend > warp_limit_m:
             pieces = ([0, 1, 2], [0, 2, 3]) if first else ([0, 1, 3], [1, 2, 3])
         else:

@@ -1,8 +1,10 @@
-"""Every surface of the airport: material, attribute, thickness in cm, self-generated power in langley per hour.
+"""Every surface of the airport: material, attribute, thickness in cm, power in langley per hour.
 
-Thickness and power of the runway and the grass are those that thesis Appendix A prints, the others follow
-Table D-1 where it has a like thing (car panels, asphalt, windows, tyres) and common building practice elsewhere.
+Thickness and power of the runway and the grass are those that thesis Appendix A prints, the others
+follow Table D-1 where it has a like thing (car panels, asphalt, windows, tyres) and common building
+practice elsewhere. Power is self-generated: engines, warm rooms, and the values of Table D-1.
 """
+
 from gdb_file import Surface
 
 RUNWAY = Surface("concrete/roadway", "runway", 35.56)
@@ -11,7 +13,7 @@ TAR = Surface("tar", "gap", 2.4, 2.2)
 ROAD = Surface("asphalt", "road", 2.4, 2.2)
 GRASS = Surface("summergrass", "grass", 0.91, -3.5)
 EARTH = Surface("soil", "mound", 30)
-MARKING = Surface("white_paint", "marking", 35.56)
+MARKING = Surface("white_marking", "marking", 35.56)
 WALL = Surface("concrete", "wall", 20)
 BRICK_WALL = Surface("brick", "wall", 23)
 SHEET = Surface("painted_steel", "sheet", 0.09)
@@ -32,7 +34,7 @@ DUCT_RUNNING = Surface("aircraft_paint", "duct", 0.25, 5.0)
 TAIL_METAL = Surface("bare_steel", "shroud", 0.2)
 TAIL_METAL_RUNNING = Surface("bare_steel", "shroud", 0.2, 25.0)
 EXHAUST = Surface("oxidised_steel", "exhaust", 0.3)
-EXHAUST_RUNNING = Surface("oxidised_steel", "exhaust", 0.3, 120.0)
+EXHAUST_RUNNING = Surface("oxidised_steel", "exhaust", 0.3, 300.0)
 STRUT = Surface("bare_steel", "strut", 2.0)
 TYRE = Surface("tire", "tyre", 0.15)
 MISSILE = Surface("white_paint", "missile", 0.3)
