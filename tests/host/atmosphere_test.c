@@ -209,12 +209,12 @@ static void a_wrong_database_is_refused_at_its_line(void **state)
         {"30.000000 0.000000\n", "45.000000 0.000000\n", 230,
          "the zenith angle 30 and the azimuth 0"},
         {"75.000000 0.000000\n", "33\n", 503, "the direction after zenith 60, azimuth 360"},
-        {"90.000000 360.000000\n", "33\n", 685, "all azimuths"},
-        {"\n33\n", "\n34\n", 726, "the file ends"},
-        {"\n33\n", "\n32\n", 725, "the end of the file"},
-        {"\n2.000000 350.0", "\n1.000000 350.0", 695, "a rising altitude in km"},
-        {"\n2.000000 350.0", "\n2.000000 35.0", 695, "a temperature from 100 to 1000 K"},
-        {"\n33\n", "\nx\n", 692, "two angles of a direction, or the number of levels"},
+        {"90.000000 360.000000\n", "33\n", 678, "all azimuths"},
+        {"\n33\n", "\n34\n", 719, "the file ends"},
+        {"\n33\n", "\n32\n", 718, "the end of the file"},
+        {"\n2.000000 350.0", "\n1.000000 350.0", 688, "a rising altitude in km"},
+        {"\n2.000000 350.0", "\n2.000000 35.0", 688, "a temperature from 100 to 1000 K"},
+        {"\n33\n", "\nx\n", 685, "two angles of a direction, or the number of levels"},
     };
     atmosphere *a = NULL;
 
