@@ -57,6 +57,11 @@ void ray_scene_set_ground(ray_scene *scene, uint32_t facet, float z_m)
     scene->world.ground_z_m = z_m;
 }
 
+void ray_scene_set_cull(ray_scene *scene, bool cull_back)
+{
+    scene->world.cull_back = cull_back;
+}
+
 device *ray_scene_device(const ray_scene *scene)
 {
     return scene->dev;
@@ -85,17 +90,17 @@ status ray_scene_primary(const ray_scene *scene, const camera_record *camera, ui
                       ARG(scene->block), ARG(out_hit));
 }
 
-status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t cull_back,
-                       device_memory ray, device_memory out_range, device_memory out_facet)
+status ray_scene_trace(const ray_scene *scene, uint32_t count, device_memory ray,
+                       device_memory out_range, device_memory out_facet)
 {
-    return device_run(scene->dev, "trace", shape1(count), ARG(count), ARG(cull_back),
+    return device_run(scene->dev, "trace", shape1(count), ARG(count), ARG(scene->world),
                       ARG(scene->node), ARG(scene->block), ARG(ray), ARG(out_range),
                       ARG(out_facet));
 }
 
-status ray_scene_occluded(const ray_scene *scene, uint32_t count, uint32_t cull_back,
-                          device_memory ray, device_memory out_met)
+status ray_scene_occluded(const ray_scene *scene, uint32_t count, device_memory ray,
+                          device_memory out_met)
 {
-    return device_run(scene->dev, "occluded", shape1(count), ARG(count), ARG(cull_back),
+    return device_run(scene->dev, "occluded", shape1(count), ARG(count), ARG(scene->world),
                       ARG(scene->node), ARG(scene->block), ARG(ray), ARG(out_met));
 }

@@ -5,9 +5,12 @@
 #include "bvh.h"
 #include "device.h"
 
+#include <stdbool.h>
+
 typedef struct ray_scene ray_scene;
 
-/* Copies the tree to the device. The scene has no ground plane yet; the device must outlive it. */
+/* Copies the tree to the device. The scene has no ground plane yet, and both sides of its facets are
+ * met; the device must outlive it. */
 status ray_scene_open(ray_scene **out, device *dev, const bvh *tree);
 void ray_scene_free(ray_scene *scene);
 
@@ -15,28 +18,30 @@ void ray_scene_free(ray_scene *scene);
  *   facet   its index in the tables of facets, past the real ones; RECORD_NONE: no plane */
 void ray_scene_set_ground(ray_scene *scene, uint32_t facet, float z_m);
 
+/* Lets every ray of the scene pass through facets that it meets from behind, or not (the default). */
+void ray_scene_set_cull(ray_scene *scene, bool cull_back);
+
 device *ray_scene_device(const ray_scene *scene);
 device_memory ray_scene_nodes(const ray_scene *scene);
 device_memory ray_scene_blocks(const ray_scene *scene);
 world_record ray_scene_world(const ray_scene *scene);
 
-/* Casts the rays of pixels first_pixel .. first_pixel + count - 1, counted along the rows; both
- * sides of a facet are seen. Ranges are metres. Thesis 2.5.3.
+/* Casts the rays of pixels first_pixel .. first_pixel + count - 1, counted along the rows.
+ * Ranges are metres. Thesis 2.5.3.
  *   out_hit   hit_record, shape (count); the ground plane is met as its facet */
 status ray_scene_primary(const ray_scene *scene, const camera_record *camera, uint32_t columns,
                          uint32_t first_pixel, uint32_t count, device_memory out_hit);
 
 /* Casts any rays. Direction need not be unit; ranges are in its lengths, above 0.
  *   ray         float, shape (count, 6): origin, direction
- *   cull_back   1: facets seen from behind are not met
  *   out_range   float, shape (count): INFINITY for a miss
  *   out_facet   uint32, shape (count): RECORD_NONE for a miss; of equal ranges the lowest facet */
-status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t cull_back,
-                       device_memory ray, device_memory out_range, device_memory out_facet);
+status ray_scene_trace(const ray_scene *scene, uint32_t count, device_memory ray,
+                       device_memory out_range, device_memory out_facet);
 
 /* As ray_scene_trace, but only tells whether a ray meets anything.
  *   out_met   uint8, shape (count): 0 or 1 */
-status ray_scene_occluded(const ray_scene *scene, uint32_t count, uint32_t cull_back,
-                          device_memory ray, device_memory out_met);
+status ray_scene_occluded(const ray_scene *scene, uint32_t count, device_memory ray,
+                          device_memory out_met);
 
 #endif

@@ -45,6 +45,27 @@ out:
     return rc;
 }
 
+static status count_cells(uint32_t *rings, uint32_t *azimuths, double zenith_step_deg,
+                          double azimuth_step_deg)
+{
+    status rc = STATUS_OK;
+
+    TRY(count_steps(rings, "zenith", zenith_step_deg, 90));
+    TRY(count_steps(azimuths, "azimuth", azimuth_step_deg, 360));
+    NEED((uint64_t)*rings * *azimuths <= CELL_LIMIT, STATUS_ARGUMENT,
+         "steps of %g and %g degrees make more than %d cells", zenith_step_deg, azimuth_step_deg,
+         CELL_LIMIT);
+out:
+    return rc;
+}
+
+status shape_factor_check_steps(double zenith_step_deg, double azimuth_step_deg)
+{
+    uint32_t rings, azimuths;
+
+    return count_cells(&rings, &azimuths, zenith_step_deg, azimuth_step_deg);
+}
+
 /* The weight of a cell at an elevation above the plane, before they are made to sum to 1. */
 static double weigh(shape_factor_reading reading, double elevation_rad)
 {
@@ -86,11 +107,7 @@ status shape_factor_open(shape_factor_grid **out, device *dev, shape_factor_read
     uint32_t rings = 0, azimuths = 0;
 
     NEED(grid, STATUS_MEMORY, "no memory for a hemisphere");
-    TRY(count_steps(&rings, "zenith", zenith_step_deg, 90));
-    TRY(count_steps(&azimuths, "azimuth", azimuth_step_deg, 360));
-    NEED((uint64_t)rings * azimuths <= CELL_LIMIT, STATUS_ARGUMENT,
-         "steps of %g and %g degrees make more than %d cells", zenith_step_deg, azimuth_step_deg,
-         CELL_LIMIT);
+    TRY(count_cells(&rings, &azimuths, zenith_step_deg, azimuth_step_deg));
     grid->cell_count = rings * azimuths;
     cell = malloc(grid->cell_count * sizeof *cell);
     NEED(cell, STATUS_MEMORY, "no memory for a hemisphere of %u cells", grid->cell_count);

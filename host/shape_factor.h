@@ -15,6 +15,9 @@ typedef enum shape_factor_reading {
 /* Finds a reading by its name on the command line: cosine, solid-angle, thesis. */
 status shape_factor_read_name(shape_factor_reading *out, const char *name);
 
+/* Fails with STATUS_ARGUMENT unless the steps divide 90 and 360, or beyond 2^22 cells. */
+status shape_factor_check_steps(double zenith_step_deg, double azimuth_step_deg);
+
 /* A grid of directions over the hemisphere, on a device: cell centres, the lowest ring first, each
  * ring clockwise as seen from above the facet, from its upslope direction, from north where it is
  * level. Weights sum to 1. */
@@ -34,7 +37,7 @@ typedef struct shape_factor_tables {
     device_memory material;      /* material_record */
 } shape_factor_tables;
 
-/* Samples the hemisphere above every point; both sides of a facet are seen. A ray that leaves the
+/* Samples the hemisphere above every point. A ray that leaves the
  * scene sees the sky, or the ground plane if that is there and the ray goes down.
  *   hit              hit_record, shape (count); only point, facet and normal are read
  *   out_background   background_record, shape (count). Points without a facet get factor 1 and no

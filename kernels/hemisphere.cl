@@ -36,7 +36,7 @@ kernel void hemisphere(const uint count, const uint cell_count, const world_reco
     for (uint c = 0; at.facet != RECORD_NONE && c < cell_count; c++) {
         vstore4(vload4(c, cell), 0, in_frame);
         hemisphere_direction(&frame, in_frame, direction);
-        const ray r = ray_leaving(at.point, at.normal, world.offset_m, direction);
+        const ray r = ray_leaving(&world, at.point, at.normal, direction);
         record.facet = ray_closest(nodes, blocks, &r).facet;
         if (record.facet == RECORD_NONE && !ray_meet_ground(&world, &r, &record))
             met.open += in_frame[3];
@@ -48,7 +48,7 @@ kernel void hemisphere(const uint count, const uint cell_count, const world_reco
         const uint best = commonest(&met, material);
         vstore4(vload4(met.first[best], cell), 0, in_frame);
         hemisphere_direction(&frame, in_frame, direction);
-        const ray r = ray_leaving(at.point, at.normal, world.offset_m, direction);
+        const ray r = ray_leaving(&world, at.point, at.normal, direction);
         record = ray_record(blocks, &r, ray_closest(nodes, blocks, &r));
         if (record.facet == RECORD_NONE) ray_meet_ground(&world, &r, &record);
         back.shape_factor = met.open / (met.open + met.blocked);

@@ -13,7 +13,7 @@ kernel void primary(const uint count, const uint first_pixel, const uint columns
     const float3 direction =
         normalize(vload3(0, camera.corner) + ((float)column + .5f) * vload3(0, camera.across) +
                   ((float)row + .5f) * vload3(0, camera.down));
-    ray r = {.limit = MAXFLOAT, .cull_back = 0};
+    ray r = {.limit = MAXFLOAT, .cull_back = world.cull_back};
     vstore3(vload3(0, camera.position), 0, r.origin);
     vstore3(direction, 0, r.direction);
     hit_record record = ray_record(blocks, &r, ray_closest(nodes, blocks, &r));

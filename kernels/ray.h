@@ -252,15 +252,15 @@ static inline hit_record ray_record(global const bvh_block *blocks, const ray *r
     return record;
 }
 
-/* A ray that leaves a surface: it starts `offset_m` above it, which must exceed the rounding of the
- * scene's coordinates, so that a plane does not meet itself. */
-static inline ray ray_leaving(const float point[3], const float normal[3], const float offset_m,
-                              const float direction[3])
+/* A ray that leaves a surface: it starts a little above it, by more than the rounding of the scene's
+ * coordinates, so that a plane does not meet itself. */
+static inline ray ray_leaving(const world_record *world, const float point[3],
+                              const float normal[3], const float direction[3])
 {
-    ray r = {.limit = MAXFLOAT, .cull_back = 0};
+    ray r = {.limit = MAXFLOAT, .cull_back = world->cull_back};
 
     for (int k = 0; k < 3; k++) {
-        r.origin[k] = point[k] + offset_m * normal[k];
+        r.origin[k] = point[k] + world->offset_m * normal[k];
         r.direction[k] = direction[k];
     }
     return r;

@@ -95,7 +95,7 @@ typedef struct world_record {
     uint ground_facet; /* facet of the endless level plane, RECORD_NONE without one */
     float ground_z_m;
     float offset_m; /* rays that leave a surface start this far above it, along its normal */
-    uint unused;
+    uint cull_back; /* 1: facets are met from the front alone, where they run counter-clockwise */
 } world_record;
 RECORD_SIZE(world_record, 16);
 

@@ -12,7 +12,7 @@ kernel void sunlight(const uint count, const float sun_x, const float sun_y, con
     if (i >= count) return;
     const hit_record at = hit[i];
     const float sun[3] = {sun_x, sun_y, sun_z};
-    const ray r = ray_leaving(at.point, at.normal, world.offset_m, sun);
+    const ray r = ray_leaving(&world, at.point, at.normal, sun);
     const float facing = at.normal[0] * sun_x + at.normal[1] * sun_y + at.normal[2] * sun_z;
     uint lit = at.facet != RECORD_NONE && sun_z > 0 && facing > 0;
     if (lit && at.facet != world.ground_facet) lit = !ray_any(nodes, blocks, &r);

@@ -1,0 +1,181 @@
+#include "command.h"
+#include "command_value.h"
+#include "ray_model.h"
+#include "ray_stream.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char help[] =
+    "usage: radsig trace [--any-hit] [--cull back] [--binary] [--device N] MESH...\n"
+    "\n"
+    "Reads rays from stdin, a line `ox oy oz dx dy dz` each, and prints t_m,facet for each: the\n"
+    "distance in metres and the face number in the file, counted from 0 and on over all meshes\n"
+    "in the order given; inf,-1 where nothing is met. Directions need not be unit.\n"
+    "\n"
+    "  --any-hit      only tells whether anything is met: 1 or 0\n"
+    "  --cull back    facets are met from the front alone, where they run counter-clockwise\n"
+    "  --binary       rays are 6 float32 each, answers float32 t and int32 facet, or one byte\n"
+    "  --device N     OpenCL device, see radsig devices\n";
+
+typedef struct trace_request {
+    bool any_hit, cull_back, binary;
+    int device_index;
+    char *const *path;
+    size_t path_count;
+} trace_request;
+
+/* The answers of a batch, here and on the device. */
+typedef struct trace_answer {
+    device_memory ray, range, facet, met;
+    float range_host[RAY_BATCH_SIZE];
+    uint32_t facet_host[RAY_BATCH_SIZE];
+    uint8_t met_host[RAY_BATCH_SIZE];
+} trace_answer;
+
+static int take_option(int option, trace_request *out)
+{
+    double number;
+
+    if (option == 'a') out->any_hit = true;
+    if (option == 'b') out->binary = true;
+    if (option == 'c') out->cull_back = true;
+    if (option == 'c' && strcmp(optarg, "back"))
+        return command_misuse("trace", "--cull '%s': expected back", optarg);
+    if (option != 'd') return 0;
+    if (!command_number(optarg, 0, 1e6, &number) || floor(number) != number)
+        return command_misuse("trace", "--device '%s': expected a whole number", optarg);
+    out->device_index = (int)number;
+    return 0;
+}
+
+/* Returns 0, -1 for help, or the exit code of a misuse. */
+static int read_arguments(int argc, char **argv, trace_request *out)
+{
+    static const struct option options[] = {
+        {"any-hit", no_argument, NULL, 'a'},    {"binary", no_argument, NULL, 'b'},
+        {"cull", required_argument, NULL, 'c'}, {"device", required_argument, NULL, 'd'},
+        {"help", no_argument, NULL, 'h'},       {0}};
+    int option, code;
+
+    opterr = 0;
+    while ((option = getopt_long(argc, argv, ":", options, NULL)) != -1) {
+        if (option == 'h') return -1;
+        if (option == '?' || option == ':')
+            return command_misuse("trace", "'%s' %s", argv[optind - 1],
+                                  option == ':' ? "needs a value" : "is no option");
+        code = take_option(option, out);
+        if (code) return code;
+    }
+    if (optind == argc) return command_misuse("trace", "needs a mesh");
+    out->path = argv + optind;
+    out->path_count = (size_t)(argc - optind);
+    return 0;
+}
+
+static status open_answer(trace_answer **out, device *dev)
+{
+    status rc = STATUS_OK;
+    trace_answer *a = calloc(1, sizeof *a);
+
+    NEED(a, STATUS_MEMORY, "no memory for a batch of rays");
+    *out = a;
+    TRY(device_allocate(dev, &a->ray, sizeof(float[RAY_BATCH_SIZE][6]), NULL));
+    TRY(device_allocate(dev, &a->range, sizeof a->range_host, NULL));
+    TRY(device_allocate(dev, &a->facet, sizeof a->facet_host, NULL));
+    TRY(device_allocate(dev, &a->met, sizeof a->met_host, NULL));
+out:
+    return rc;
+}
+
+static void free_answer(trace_answer *a)
+{
+    if (!a) return;
+    device_release(a->met);
+    device_release(a->facet);
+    device_release(a->range);
+    device_release(a->ray);
+    free(a);
+}
+
+static status cast(const ray_scene *scene, const ray_batch *batch, bool any_hit, trace_answer *a)
+{
+    status rc = STATUS_OK;
+    device *dev = ray_scene_device(scene);
+    const uint32_t n = batch->count;
+
+    TRY(device_upload(dev, a->ray, 0, n * sizeof *batch->ray, batch->ray));
+    if (any_hit) {
+        TRY(ray_scene_occluded(scene, n, a->ray, a->met));
+        TRY(device_download(dev, a->met, 0, n, a->met_host));
+    } else {
+        TRY(ray_scene_trace(scene, n, a->ray, a->range, a->facet));
+        TRY(device_download(dev, a->range, 0, n * sizeof(float), a->range_host));
+        TRY(device_download(dev, a->facet, 0, n * sizeof(uint32_t), a->facet_host));
+    }
+out:
+    return rc;
+}
+
+static void print_answer(const trace_request *request, const ray_batch *batch,
+                         const trace_answer *a, const uint32_t *facet_id)
+{
+    for (uint32_t i = 0; i < batch->count; i++) {
+        const uint32_t facet = a->facet_host[i];
+        const float range = (float)((double)a->range_host[i] * batch->length[i]);
+        const int32_t id = facet == RECORD_NONE ? -1 : (int32_t)facet_id[facet];
+        if (request->any_hit && request->binary) {
+            putchar(a->met_host[i]);
+        } else if (request->any_hit) {
+            puts(a->met_host[i] ? "1" : "0");
+        } else if (request->binary) {
+            fwrite(&range, sizeof range, 1, stdout);
+            fwrite(&id, sizeof id, 1, stdout);
+        } else {
+            printf("%.9g,%d\n", (double)range, id);
+        }
+    }
+}
+
+static status run(const trace_request *request)
+{
+    status rc = STATUS_OK;
+    ray_model *model = NULL;
+    trace_answer *answer = NULL;
+    ray_batch *batch = malloc(sizeof *batch);
+    ray_stream stream = {.file = stdin, .binary = request->binary};
+
+    NEED(batch, STATUS_MEMORY, "no memory for a batch of rays");
+    TRY(ray_model_open(&model, request->device_index, request->path, request->path_count));
+    ray_scene_set_cull(ray_model_scene(model), request->cull_back);
+    TRY(open_answer(&answer, ray_scene_device(ray_model_scene(model))));
+    stream.origin_m = ray_model_geometry(model)->origin_m;
+    for (;;) {
+        TRY(ray_stream_read(&stream, batch));
+        if (batch->count == 0) break;
+        TRY(cast(ray_model_scene(model), batch, request->any_hit, answer));
+        print_answer(request, batch, answer, ray_model_geometry(model)->facet_id);
+    }
+    NEED(fflush(stdout) == 0 && !ferror(stdout), STATUS_FILE, "stdout: %s", strerror(errno));
+out:
+    free_answer(answer);
+    ray_model_free(model);
+    free(batch);
+    return rc;
+}
+
+int command_trace(int argc, char **argv)
+{
+    trace_request request = {.device_index = -1};
+    const int code = read_arguments(argc, argv, &request);
+
+    if (code > 0) return code;
+    if (code < 0) {
+        fputs(help, stdout);
+        return 0;
+    }
+    return command_end("trace", run(&request));
+}
