@@ -5,7 +5,6 @@ import numpy as np
 import shape
 import surfaces as of
 from gdb_file import Thing
-from vehicle import rounded
 
 BASE = -0.35  # parts of a house end at different depths, so that no two facets lie in one plane
 
@@ -206,7 +205,7 @@ def add_machines(thing, places):
     thing.add(
         "MACHINES",
         of.BONNET_WARM,
-        *[rounded((x, y, 7.25), (x + 2, y + 1.6, 8.5), 0.1, 0) for x, y in places],
+        *[shape.rounded((x, y, 7.25), (x + 2, y + 1.6, 8.5), 0.1, 0) for x, y in places],
     )
     thing.add(
         "FANS",
@@ -348,7 +347,9 @@ def crates(name):
         thing.add(
             f"BOX_{i}",
             of.PLANK,
-            rounded((x, y, -0.05), (x + dx, y + dy, dz), 0.03, 2),
-            rounded((x + 0.1, y + 0.1, dz - 0.02), (x + dx * 0.7, y + dy * 0.8, dz + 0.5), 0.03, 2),
+            shape.rounded((x, y, -0.05), (x + dx, y + dy, dz), 0.03, 2),
+            shape.rounded(
+                (x + 0.1, y + 0.1, dz - 0.02), (x + dx * 0.7, y + dy * 0.8, dz + 0.5), 0.03, 2
+            ),
         )
     return thing

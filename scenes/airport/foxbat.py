@@ -10,9 +10,6 @@ import surfaces as of
 from gdb_file import Thing
 
 NOSE_X = 11.0
-WHEEL_REACH = (
-    -0.02
-)  # tyres end a little below the ground, so that no facet lies in the plane of the slabs
 
 # station, half width, bottom, top, power of the superellipse
 FORWARD_BODY = [
@@ -39,11 +36,8 @@ TRUNK = [
     (17.5, 0.88, 1.32, 2.92, 3, 1.02),
     (19.4, 0.80, 1.34, 2.92, 2.1, 0.94),
 ]
-DETAIL = (
-    (12, 1, 8),
-    (16, 2, 8),
-    (26, 3, 14),
-)  # points of a section, sections a station, sides of a wheel
+# points of a section, sections a station, sides of a wheel
+DETAIL = ((12, 1, 8), (16, 2, 8), (26, 3, 14))
 LIP_SLANT = 0.75  # the upper lip of an intake runs ahead of the lower one
 CANOPY = [
     (3.7, 0.10, 2.80, 2.96, 2),
@@ -193,21 +187,6 @@ def add_wings(thing, chord_points, pieces):
         thing.add(f"KEEL_{side}", of.SKIN, turn(keel))
 
 
-def wheel(x, y, radius, width, sides):
-    half = width / 2
-    profile = [
-        (-half * 0.6, 0),
-        (-half, radius * 0.62),
-        (-half, radius * 0.9),
-        (-half * 0.7, radius),
-        (half * 0.7, radius),
-        (half, radius * 0.9),
-        (half, radius * 0.62),
-        (half * 0.6, 0),
-    ]
-    return shape.revolve(profile, sides, (x, y, radius + WHEEL_REACH), axis=1)
-
-
 def add_gear(thing, sides):
     nose, main = NOSE_X - 6.9, NOSE_X - 13.3
     thing.add(
@@ -219,8 +198,8 @@ def add_gear(thing, sides):
     thing.add(
         "GEAR_NOSE_WHEELS",
         of.TYRE,
-        wheel(nose, 0.26, 0.37, 0.2, sides),
-        wheel(nose, -0.26, 0.37, 0.2, sides),
+        shape.wheel(nose, 0.26, 0.37, 0.2, sides),
+        shape.wheel(nose, -0.26, 0.37, 0.2, sides),
     )
     thing.add(
         "GEAR_NOSE_DOORS",
@@ -231,7 +210,7 @@ def add_gear(thing, sides):
     leg = shape.tube((main, 1.6, 1.6), (main, 1.75, 0.64), 0.11, sides // 2)
     brace = shape.tube((main + 1.0, 1.5, 1.4), (main, 1.75, 0.7), 0.06)
     door = shape.box((main - 0.8, 2.12, 0.8), (main + 0.7, 2.16, 1.5))
-    tyre = wheel(main, 1.93, 0.65, 0.36, sides)
+    tyre = shape.wheel(main, 1.93, 0.65, 0.36, sides)
     for side, turn in (("LEFT", lambda b: b), ("RIGHT", shape.mirrored)):
         thing.add(f"GEAR_{side}", of.STRUT, turn(leg), turn(brace))
         thing.add(f"GEAR_{side}_WHEEL", of.TYRE, turn(tyre))

@@ -9,9 +9,8 @@ import numpy as np
 
 import shape
 
-WARP_LIMIT_M = (
-    2e-4  # two roundings of .1 mm, the last printed digit of places between 100 and 1000 m
-)
+# Two roundings of .1 mm, the last printed digit of places between 100 and 1000 m.
+WARP_LIMIT_M = 2e-4
 
 
 class Surface:

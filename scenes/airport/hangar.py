@@ -5,7 +5,6 @@ import shape
 import surfaces as of
 from building import BASE, arch, upright
 from gdb_file import Thing
-from vehicle import rounded
 
 
 def build(name, depth=32.0, half=15.0, pieces=10, points=29, leaves=3):
@@ -99,7 +98,9 @@ def add_roof_fittings(thing, depth, top):
 
 def add_inside(thing, depth, half):
     benches = [
-        rounded((x, s * (half - 1.5) - 0.5, BASE), (x + 2.5, s * (half - 1.5) + 0.5, 0.95), 0.04, 0)
+        shape.rounded(
+            (x, s * (half - 1.5) - 0.5, BASE), (x + 2.5, s * (half - 1.5) + 0.5, 0.95), 0.04, 0
+        )
         for x in np.arange(-depth + 3, -6, 5.0)
         for s in (-1, 1)
     ]

@@ -4,7 +4,6 @@ import numpy as np
 
 import shape
 import surfaces as of
-from foxbat import wheel
 from gdb_file import Thing
 
 # forward place, half width, bottom, top, power of the superellipse
@@ -144,7 +143,7 @@ def add_sides(thing):
             shape.tube((0.2, s * 2.0, 0.44), (0.2, s * 1.2, 1.0), 0.08),
             shape.tube((0.2, s * 2.0, 0.44), (0.3, s * 1.2, 2.4), 0.06),
         )
-        thing.add(f"WHEEL_{side}", of.TYRE, wheel(0.2, s * 2.15, 0.43, 0.26, 18))
+        thing.add(f"WHEEL_{side}", of.TYRE, shape.wheel(0.2, s * 2.15, 0.43, 0.26, 18))
 
 
 def build(name):
@@ -165,7 +164,10 @@ def build(name):
         shape.tube((6.8, -0.25, 0.3), (6.8, 0.25, 0.3), 0.05),
     )
     thing.add(
-        "NOSE_WHEELS", of.TYRE, wheel(6.8, 0.22, 0.3, 0.16, 16), wheel(6.8, -0.22, 0.3, 0.16, 16)
+        "NOSE_WHEELS",
+        of.TYRE,
+        shape.wheel(6.8, 0.22, 0.3, 0.16, 16),
+        shape.wheel(6.8, -0.22, 0.3, 0.16, 16),
     )
     add_glass(thing)
     add_rotors(thing)

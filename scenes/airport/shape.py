@@ -98,6 +98,38 @@ def tube(start, end, radius, sides=6):
     return loft([start + ring, end + ring])
 
 
+def rounded(low, high, cut, axis=0):
+    """A box whose long edges along an axis are cut off."""
+    (a0, b0), (a1, b1) = np.delete(low, axis), np.delete(high, axis)
+    profile = [
+        (a0 + cut, b0),
+        (a1 - cut, b0),
+        (a1, b0 + cut),
+        (a1, b1 - cut),
+        (a1 - cut, b1),
+        (a0 + cut, b1),
+        (a0, b1 - cut),
+        (a0, b0 + cut),
+    ]
+    return prism(profile, low[axis], high[axis], axis)
+
+
+def wheel(x, y, radius, width, sides):
+    """A tyre that ends a little below the ground: no facet lies in the plane of the slabs."""
+    half = width / 2
+    profile = [
+        (-half * 0.6, 0),
+        (-half, radius * 0.62),
+        (-half, radius * 0.9),
+        (-half * 0.7, radius),
+        (half * 0.7, radius),
+        (half, radius * 0.9),
+        (half, radius * 0.62),
+        (half * 0.6, 0),
+    ]
+    return revolve(profile, sides, (x, y, radius - 0.02), axis=1)
+
+
 def superellipse(points, half_width, low, high, power, centre=0.0):
     """A closed ring in y and z: an ellipse for power 2, towards a rectangle as it grows."""
     turn = (np.arange(points) + 0.5) * 2 * np.pi / points

@@ -4,7 +4,7 @@ import numpy as np
 
 import shape
 import surfaces as of
-from foxbat import wheel
+from foxbat import NOSE_X, missile
 from gdb_file import Thing
 
 
@@ -13,24 +13,8 @@ def add_wheels(thing, name, axles, half_track, radius, width, sides):
         thing.add(
             f"{name}_{i}",
             of.TYRE,
-            *(wheel(x, y, radius, width, sides) for y in (half_track, -half_track)),
+            *(shape.wheel(x, y, radius, width, sides) for y in (half_track, -half_track)),
         )
-
-
-def rounded(low, high, cut, axis=0):
-    """A box whose long edges along an axis are cut off."""
-    (a0, b0), (a1, b1) = np.delete(low, axis), np.delete(high, axis)
-    profile = [
-        (a0 + cut, b0),
-        (a1 - cut, b0),
-        (a1, b0 + cut),
-        (a1, b1 - cut),
-        (a1 - cut, b1),
-        (a0 + cut, b1),
-        (a0, b1 - cut),
-        (a0, b0 + cut),
-    ]
-    return shape.prism(profile, low[axis], high[axis], axis)
 
 
 def car(name, sides=16):
@@ -58,7 +42,7 @@ def car(name, sides=16):
         for y in (-0.80, 0.80)
     ]
     thing.add("GLASS", of.WINDSHIELD, shape.loft(glass))
-    roof = rounded((-1.12, -0.68, 1.385), (0.42, 0.68, 1.45), 0.02, axis=0)
+    roof = shape.rounded((-1.12, -0.68, 1.385), (0.42, 0.68, 1.45), 0.02, axis=0)
     thing.add("ROOF", of.CAR_ROOF, roof)
     pillars = [
         shape.tube((a, s * 0.79, 0.9), (b, s * 0.655, 1.41), 0.04, 4)
@@ -69,8 +53,8 @@ def car(name, sides=16):
     thing.add(
         "BUMPERS",
         of.BUMPER,
-        rounded((2.08, -0.82, 0.36), (2.24, 0.82, 0.56), 0.04, axis=1),
-        rounded((-2.28, -0.82, 0.36), (-2.12, 0.82, 0.56), 0.04, axis=1),
+        shape.rounded((2.08, -0.82, 0.36), (2.24, 0.82, 0.56), 0.04, axis=1),
+        shape.rounded((-2.28, -0.82, 0.36), (-2.12, 0.82, 0.56), 0.04, axis=1),
     )
     lamps = [
         shape.box((a, y - 0.15, 0.62), (a + 0.06, y + 0.15, 0.74))
@@ -85,7 +69,7 @@ def car(name, sides=16):
 def add_cab(thing, front):
     """A truck's bonnet and cab with its windows, ahead of x = front - 3."""
     thing.add(
-        "BONNET", of.BONNET_WARM, rounded((front - 1.4, -0.7, 0.95), (front, 0.7, 1.72), 0.12)
+        "BONNET", of.BONNET_WARM, shape.rounded((front - 1.4, -0.7, 0.95), (front, 0.7, 1.72), 0.12)
     )
     side = [
         (front - 2.9, 0.9),
@@ -103,14 +87,14 @@ def add_cab(thing, front):
     ]
     thing.add("WINDOWS", of.WINDSHIELD, shape.moved(pane, (front - 1.475, 0, 2.2)), *doors)
     fenders = [
-        rounded((front - 1.3, s - 0.3, 0.78), (front - 0.1, s + 0.3, 1.06), 0.1)
+        shape.rounded((front - 1.3, s - 0.3, 0.78), (front - 0.1, s + 0.3, 1.06), 0.1)
         for s in (-0.9, 0.9)
     ]
     thing.add("FENDERS", of.OLIVE, *fenders)
     thing.add(
         "BUMPER",
         of.BUMPER,
-        rounded((front - 0.05, -1.15, 0.55), (front + 0.12, 1.15, 0.8), 0.04, axis=1),
+        shape.rounded((front - 0.05, -1.15, 0.55), (front + 0.12, 1.15, 0.8), 0.04, axis=1),
     )
     lamps = [
         shape.revolve(
@@ -149,7 +133,7 @@ def truck(name, sides=16, covered=True):
         thing.add("COVER", of.CANVAS, shape.strip(arch, -0.03, -3.74, 0.54, 0, pieces=8))
     else:
         crates = [
-            rounded((x, y, 1.0), (x + 0.9, y + 0.8, h), 0.03, 2)
+            shape.rounded((x, y, 1.0), (x + 0.9, y + 0.8, h), 0.03, 2)
             for x, y, h in (
                 (-3.4, -0.9, 1.8),
                 (-2.3, 0.1, 1.6),
@@ -212,13 +196,13 @@ def tanker(name, sides=20):
 def tug(name):
     """A low aircraft tug with its tow bar."""
     thing = Thing(name)
-    thing.add("BODY", of.OLIVE, rounded((-1.9, -1.1, 0.3), (1.9, 1.1, 0.95), 0.12))
-    thing.add("CAB", of.BONNET_WARM, rounded((0.3, -0.8, 0.93), (1.7, 0.8, 1.3), 0.08))
+    thing.add("BODY", of.OLIVE, shape.rounded((-1.9, -1.1, 0.3), (1.9, 1.1, 0.95), 0.12))
+    thing.add("CAB", of.BONNET_WARM, shape.rounded((0.3, -0.8, 0.93), (1.7, 0.8, 1.3), 0.08))
     thing.add(
         "SEAT",
         of.CANVAS,
-        rounded((-0.6, -0.7, 0.94), (-0.1, 0.7, 1.3), 0.06, 1),
-        rounded((-0.75, -0.66, 1.2), (-0.55, 0.66, 1.7), 0.04, 1),
+        shape.rounded((-0.6, -0.7, 0.94), (-0.1, 0.7, 1.3), 0.06, 1),
+        shape.rounded((-0.75, -0.66, 1.2), (-0.55, 0.66, 1.7), 0.04, 1),
     )
     thing.add(
         "BUMPERS",
@@ -239,7 +223,7 @@ def tug(name):
 def generator_cart(name):
     """A ground power unit, running: a warm housing with louvres and a cable drum."""
     thing = Thing(name)
-    thing.add("HOUSING", of.BONNET_WARM, rounded((-1.3, -0.7, 0.5), (1.1, 0.7, 1.6), 0.12))
+    thing.add("HOUSING", of.BONNET_WARM, shape.rounded((-1.3, -0.7, 0.5), (1.1, 0.7, 1.6), 0.12))
     thing.add(
         "LOUVRES",
         of.FRAME,
@@ -281,14 +265,15 @@ def generator_cart(name):
 
 def weapon_trailer(name):
     """A flat trailer with four missiles on cradles."""
-    from foxbat import NOSE_X, missile
-
     thing = Thing(name)
     thing.add("BED", of.FRAME, shape.box((-3.2, -1.0, 0.62), (2.9, 1.0, 0.74)))
     thing.add(
         "CRADLES",
         of.PLANK,
-        *[rounded((x, -0.96, 0.73), (x + 0.2, 0.96, 0.92), 0.02, 1) for x in (-2.3, -0.8, 0.7)],
+        *[
+            shape.rounded((x, -0.96, 0.73), (x + 0.2, 0.96, 0.92), 0.02, 1)
+            for x in (-2.3, -0.8, 0.7)
+        ],
     )
     for i, y in enumerate((-0.72, -0.24, 0.24, 0.72), 1):
         thing.add(f"MISSILE_{i}", of.MISSILE, missile(y, 1.05, NOSE_X - 2.95, 12)[0])
@@ -301,7 +286,7 @@ def radar_van(name):
     """A truck with a cabin and a dish on a mast."""
     thing = truck(name, 12)
     del thing.parts["COVER"]
-    thing.add("CABIN", of.OLIVE, rounded((-3.58, -1.11, 1.01), (0.38, 1.11, 2.9), 0.15))
+    thing.add("CABIN", of.OLIVE, shape.rounded((-3.58, -1.11, 1.01), (0.38, 1.11, 2.9), 0.15))
     thing.add("MAST", of.FRAME, shape.tube((-1.6, 0, 2.8), (-1.6, 0, 4.6), 0.12, 10))
     r = np.linspace(0, 1.7, 7)
     front, back = np.stack([0.18 * r**2, r], 1), np.stack([0.18 * r**2 - 0.06, r], 1)
