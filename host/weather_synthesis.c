@@ -82,8 +82,8 @@ static status check_summary(const weather_summary *s)
 
     for (size_t i = 0; i < sizeof range / sizeof *range; i++)
         NEED(range[i].value >= range[i].low && range[i].value <= range[i].high, STATUS_ARGUMENT,
-             "weather: %s: expected %g to %g, not %g", range[i].name, range[i].low, range[i].high,
-             range[i].value);
+             "weather: %s: expected %.4g to %.4g, not %.4g", range[i].name, range[i].low,
+             range[i].high, range[i].value);
 out:
     return rc;
 }

@@ -1,0 +1,146 @@
+"""The equations of kernels/thermal.h in float64 numpy, all facets at once; slabs by a dense solve."""
+import numpy as np
+
+SIGMA = 5.670374419e-8
+GROUND_REFLECTANCE = 0.15
+NODES = 8
+
+FACET = np.dtype({
+    "names": ["normal", "material", "slope_rad", "azimuth_rad", "thickness_m", "power_w_m2",
+              "stated_temperature_k", "two_sided"],
+    "formats": [("f4", 3), "u4", "f4", "f4", "f4", "f4", "f4", "u4"],
+    "offsets": [0, 12, 16, 20, 24, 28, 32, 36],
+    "itemsize": 48})
+MATERIAL = np.dtype({
+    "names": ["density_kg_m3", "specific_heat_j_kg_k", "conductivity_w_m_k", "solar_absorptance",
+              "thermal_emissivity", "exposed_area"],
+    "formats": ["f4"] * 6, "offsets": [0, 4, 8, 12, 16, 20], "itemsize": 48})
+FORCING = np.dtype({
+    "names": ["air_temperature_k", "sky_longwave_w_m2", "convection_w_m2_k", "direct_w_m2",
+              "diffuse_w_m2", "sun", "rain_w_m2_k", "rain_temperature_k"],
+    "formats": ["f4", "f4", "f4", "f4", "f4", ("f4", 3), "f4", "f4"],
+    "offsets": [0, 4, 8, 12, 16, 20, 32, 36], "itemsize": 48})
+SPAN = np.dtype({
+    "names": ["facet_count", "first_step", "row_count", "sunlit_words", "weight", "step_s"],
+    "formats": ["u4", "u4", "u4", "u4", "f4", "f4"],
+    "offsets": [0, 4, 8, 12, 16, 20], "itemsize": 32})
+
+
+class Body:
+    """What does not change with time; arrays of shape (facets)."""
+
+    def __init__(self, facets, materials):
+        of = materials[facets["material"]]
+        read = lambda records, name: records[name].astype(np.float64)
+        area = read(of, "exposed_area")
+        self.normal = read(facets, "normal")
+        self.two_sided = facets["two_sided"] != 0
+        self.front = np.minimum(1, 2 * abs(area))
+        self.back = np.maximum(0, 2 * abs(area) - 1)
+        self.slab = area < 0
+        self.absorptance = read(of, "solar_absorptance")
+        self.emissivity = read(of, "thermal_emissivity")
+        self.power = read(facets, "power_w_m2")
+        self.capacity = (read(of, "density_kg_m3") * read(of, "specific_heat_j_kg_k")
+                         * read(facets, "thickness_m"))
+        self.conductance = read(of, "conductivity_w_m_k") / read(facets, "thickness_m")
+
+
+def load_of(body, now, lit):
+    """Row by row: direct, steady, back, convection, air, rain, rain temperature."""
+    now = {name: np.float64(now[name]) for name in FORCING.names}
+    sky = 0.5 * (1 + body.normal[:, 2])
+    cosine = body.normal @ now["sun"]
+    facing = np.where(body.two_sided, abs(cosine), np.maximum(0, cosine))
+    level = now["direct_w_m2"] * max(0, now["sun"][2]) + now["diffuse_w_m2"]
+    air = SIGMA * now["air_temperature_k"] ** 4
+    sunlight = sky * now["diffuse_w_m2"] + (1 - sky) * GROUND_REFLECTANCE * level
+    longwave = sky * now["sky_longwave_w_m2"] + (1 - sky) * air
+    one = np.ones(len(sky))
+    return np.array([
+        body.front * body.absorptance * lit * facing * now["direct_w_m2"],
+        body.power + body.front * (body.absorptance * sunlight + body.emissivity * longwave),
+        body.back * body.emissivity * air,
+        now["convection_w_m2_k"] * one,
+        now["air_temperature_k"] * one,
+        body.front * np.maximum(0, body.normal[:, 2]) * now["rain_w_m2_k"],
+        now["rain_temperature_k"] * one])
+
+
+def front_flux(body, load, t):
+    direct, steady, _, convection, air, rain, rain_k = load
+    emissivity = body.front * body.emissivity
+    h = body.front * convection
+    flux = direct + steady - emissivity * SIGMA * t**4 + h * (air - t) + rain * (rain_k - t)
+    return flux, 4 * emissivity * SIGMA * t**3 + h + rain
+
+
+def back_flux(body, load, t):
+    emissivity, h = body.back * body.emissivity, body.back * load[3]
+    flux = load[2] - emissivity * SIGMA * t**4 + h * (load[4] - t)
+    return flux, 4 * emissivity * SIGMA * t**3 + h
+
+
+def start(body, load):
+    """Bisection: the balance of both faces falls with the front's temperature."""
+    low, high = np.full_like(body.front, 1.0), np.full_like(body.front, 2000.0)
+    through = np.where(body.slab, body.conductance, 1e12)
+    for _ in range(200):
+        front = 0.5 * (low + high)
+        flux, _ = front_flux(body, load, front)
+        back = front - flux / through
+        warms = flux + back_flux(body, load, np.maximum(back, 1.0))[0] > 0
+        low, high = np.where(warms, front, low), np.where(warms, high, front)
+    share = (np.arange(NODES) + 0.5) / NODES
+    return front, back, front[:, None] + share * (back - front)[:, None]
+
+
+def step_slab(body, load, dt, front, back, node):
+    """Backward Euler over face, nodes, face; the faces have no capacity."""
+    count, g = len(front), body.conductance * NODES
+    store = body.capacity / (NODES * dt)
+    a, b = np.zeros((count, NODES + 2, NODES + 2)), np.zeros((count, NODES + 2))
+    for face, t, flux_of in ((0, front, front_flux), (NODES + 1, back, back_flux)):
+        flux, slope = flux_of(body, load, t)
+        inner = 1 if face == 0 else NODES
+        a[:, face, face], a[:, face, inner] = slope + 2 * g, -2 * g
+        b[:, face] = flux + slope * t
+    for j in range(1, NODES + 1):
+        a[:, j, j] += store
+        b[:, j] = store * node[:, j - 1]
+        for other in (j - 1, j + 1):
+            link = 2 * g if other in (0, NODES + 1) else g
+            a[:, j, j] += link
+            a[:, j, other] -= link
+    t = np.linalg.solve(a, b[:, :, None])[:, :, 0]
+    return t[:, 0], t[:, -1], t[:, 1:-1]
+
+
+def step_lump(body, load, dt, t):
+    front, back = front_flux(body, load, t), back_flux(body, load, t)
+    flux, slope = front[0] + back[0], front[1] + back[1]
+    return t - np.expm1(-slope * dt / body.capacity) * flux / slope
+
+
+def history(facets, materials, forcing, step_s, lit=None, sub_steps=4):
+    """Temperatures, shape (steps, facets); lit: (steps, facets)."""
+    body = Body(facets, materials)
+    if lit is None:
+        lit = np.ones((len(forcing), len(facets)))
+    before = load_of(body, forcing[0], lit[0])
+    front, back, node = start(body, before)
+    rows = [front]
+    for now, sun in zip(forcing[1:], lit[1:]):
+        after = load_of(body, now, sun)
+        for i in range(sub_steps):
+            direct = before[0] if i < sub_steps // 2 else after[0]
+            middle, end = (
+                np.vstack([direct[None], (before + share * (after - before))[1:]])
+                for share in ((i + 0.5) / sub_steps, (i + 1) / sub_steps))
+            dt = step_s / sub_steps
+            lump = step_lump(body, middle, dt, front)
+            front, back, node = step_slab(body, end, dt, front, back, node)
+            front = np.where(body.slab, front, lump)
+        before = after
+        rows.append(front)
+    return np.array(rows)
