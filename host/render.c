@@ -1,0 +1,348 @@
+#include "render.h"
+
+#include "bvh.h"
+#include "ray_scene.h"
+#include "shape_factor.h"
+#include "spectra.h"
+#include "sun.h"
+#include "sunlight.h"
+#include "thermal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+
+enum { STAGE_LIMIT = 8 };
+
+struct render {
+    const scene *s;
+    device *dev;
+    ray_scene *rays;
+    shape_factor_grid *grid;
+    spectra *bands;
+    radiometry_record frame;
+    camera_record camera;
+    size_t facet_count; /* with the ground's */
+    device_memory facets, facet_ids, materials, temperature_k;
+    device_memory spectrum_rows, emissivity_rows, band_records, ln_radiance;
+    render_plane *planes;
+    size_t plane_count;
+    render_stage stages[STAGE_LIMIT];
+    size_t stage_count;
+    double stage_start;
+};
+
+static double now(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void end_stage(render *r, const char *name)
+{
+    const double end = now();
+
+    r->stages[r->stage_count++] = (render_stage){name, end - r->stage_start};
+    r->stage_start = end;
+}
+
+static status open_rays(render *r)
+{
+    status rc = STATUS_OK;
+    const scene *s = r->s;
+    const geometry *g = s->shape;
+    bvh *tree = NULL;
+
+    TRY(bvh_build(&tree, g->facet_count, (const uint32_t(*)[4])g->corner,
+                  (const float(*)[3])g->position));
+    TRY(ray_scene_open(&r->rays, r->dev, tree));
+    if (s->ground_material != RECORD_NONE) ray_scene_set_ground(r->rays, g->facet_count, g->low[2]);
+    TRY(shape_factor_open(&r->grid, r->dev, s->thesis ? SHAPE_FACTOR_THESIS : SHAPE_FACTOR_COSINE,
+                          s->hemisphere_zenith_step_deg, s->hemisphere_azimuth_step_deg));
+    end_stage(r, "tree");
+out:
+    bvh_free(tree);
+    return rc;
+}
+
+static status upload_facets(render *r, facet_record *records)
+{
+    status rc = STATUS_OK;
+    const scene *s = r->s;
+    const size_t real = s->shape->facet_count;
+    uint32_t *ids = malloc(r->facet_count * sizeof *ids);
+    material_record *materials = malloc((s->material_count + 1) * sizeof *materials);
+
+    NEED(ids && materials, STATUS_MEMORY, "no memory for %zu facets", real);
+    scene_facet_records(s, records);
+    for (size_t i = 0; i < r->facet_count; i++)
+        ids[i] = i < real ? s->shape->facet_id[i] : RECORD_NONE;
+    for (uint32_t i = 0; i < s->material_count; i++) materials[i] = s->materials[i].record;
+    TRY(device_allocate(r->dev, &r->facets, r->facet_count * sizeof *records, records));
+    TRY(device_allocate(r->dev, &r->facet_ids, r->facet_count * sizeof *ids, ids));
+    TRY(device_allocate(r->dev, &r->materials, s->material_count * sizeof *materials, materials));
+out:
+    free(ids);
+    free(materials);
+    return rc;
+}
+
+static status compute_temperatures(render *r)
+{
+    status rc = STATUS_OK;
+    const scene *s = r->s;
+    const weather *w = s->history;
+    forcing_record *forcing = malloc(w->count * sizeof *forcing);
+
+    NEED(forcing, STATUS_MEMORY, "no memory for %zu steps of weather", w->count);
+    thermal_forcing(forcing, w, &s->place);
+    TRY(thermal_run(r->dev, r->facets, r->materials, r->facet_count, forcing, w->count,
+                    w->interval_s, thermal_time_h(w, &s->place), r->temperature_k));
+out:
+    free(forcing);
+    return rc;
+}
+
+static status set_temperatures(render *r)
+{
+    status rc = STATUS_OK;
+    const size_t bytes = r->facet_count * sizeof(float);
+    facet_record *records = malloc((r->facet_count + 1) * sizeof *records);
+    float *stated_k = malloc(bytes + 1);
+
+    NEED(records && stated_k, STATUS_MEMORY, "no memory for %zu facets", r->facet_count);
+    TRY(upload_facets(r, records));
+    TRY(device_allocate(r->dev, &r->temperature_k, bytes, NULL));
+    if (r->s->thermal == SCENE_THERMAL_THERM && r->s->history) {
+        TRY(compute_temperatures(r));
+    } else {
+        for (size_t i = 0; i < r->facet_count; i++) stated_k[i] = records[i].stated_temperature_k;
+        TRY(device_upload(r->dev, r->temperature_k, 0, bytes, stated_k));
+    }
+    end_stage(r, "temperatures");
+out:
+    free(records);
+    free(stated_k);
+    return rc;
+}
+
+/* The emissivity of all materials on the samples of the bands: 91 rows or one each. */
+static status upload_emissivity(render *r)
+{
+    status rc = STATUS_OK;
+    const scene *s = r->s;
+    const size_t samples = r->bands->sample_count;
+    const size_t bytes = (size_t)scene_emissivity_rows(s) * samples * sizeof(float);
+    float *rows = malloc(bytes + 1);
+
+    NEED(rows, STATUS_MEMORY, "no memory for the emissivity of %u materials", s->material_count);
+    for (uint32_t i = 0; i < s->material_count; i++) {
+        const scene_material *m = &s->materials[i];
+        float *first = rows + (size_t)m->record.emissivity_first * samples;
+        if (m->table)
+            spectra_sample_emissivity(r->bands, m->table, first);
+        else
+            for (size_t k = 0; k < samples; k++) first[k] = (float)m->grey_emissivity;
+    }
+    TRY(device_allocate(r->dev, &r->emissivity_rows, bytes, rows));
+out:
+    free(rows);
+    return rc;
+}
+
+static status open_spectra(render *r)
+{
+    status rc = STATUS_OK;
+    const scene *s = r->s;
+
+    TRY(spectra_build(&r->bands, s->bands, s->band_count, s->air, s->thesis));
+    TRY(device_allocate(r->dev, &r->spectrum_rows,
+                        (size_t)r->bands->row_count * r->bands->sample_count * sizeof(float),
+                        r->bands->rows));
+    TRY(device_allocate(r->dev, &r->band_records, s->band_count * sizeof(band_record),
+                        r->bands->bands));
+    TRY(device_allocate(r->dev, &r->ln_radiance,
+                        (size_t)s->band_count * BAND_TEMPERATURES * sizeof(float), NULL));
+    TRY(upload_emissivity(r));
+    TRY(device_run(r->dev, "band_temperature", shape2(BAND_TEMPERATURES, s->band_count),
+                   ARG(r->bands->sample_count), ARG(r->spectrum_rows), ARG(r->band_records),
+                   ARG(r->ln_radiance)));
+    end_stage(r, "spectra");
+out:
+    return rc;
+}
+
+static void set_frame(render *r)
+{
+    const scene *s = r->s;
+    const atmosphere *air = s->air;
+    const sun_position sun = sun_at(s->place.time_s, s->place.latitude_deg, s->place.longitude_deg);
+    double direction[3];
+
+    sun_direction(sun, direction);
+    r->camera = view_camera(&s->camera, s->shape->origin_m);
+    r->frame = (radiometry_record){
+        .columns = (uint32_t)s->camera.columns,
+        .band_count = s->band_count,
+        .sample_count = r->bands->sample_count,
+        .thesis = s->thesis,
+        .path_count = (uint32_t)air->path_count,
+        .path_zenith_first_deg = (float)air->path_zenith_first_deg,
+        .path_zenith_step_deg = (float)air->path_zenith_step_deg,
+        .zenith_count = (uint32_t)air->zenith_count,
+        .azimuth_count = (uint32_t)air->azimuth_count,
+        .zenith_step_deg = (float)air->zenith_step_deg,
+        .azimuth_step_deg = (float)air->azimuth_step_deg,
+        .sun = {(float)direction[0], (float)direction[1], (float)direction[2]},
+    };
+}
+
+status render_open(render **out, const scene *s, device *dev)
+{
+    status rc = STATUS_OK;
+    render *r = calloc(1, sizeof *r);
+
+    NEED(r, STATUS_MEMORY, "no memory for a render");
+    r->s = s;
+    r->dev = dev;
+    r->facet_count = s->shape->facet_count + (s->ground_material != RECORD_NONE);
+    r->stage_start = now();
+    TRY(open_rays(r));
+    TRY(set_temperatures(r));
+    TRY(open_spectra(r));
+    set_frame(r);
+    TRY(render_plane_list(&r->planes, &r->plane_count, s, r->bands->centre_um, r->bands->width_um));
+    *out = r;
+    r = NULL;
+out:
+    render_free(r);
+    return rc;
+}
+
+void render_free(render *r)
+{
+    if (!r) return;
+    free(r->planes);
+    device_release(r->ln_radiance);
+    device_release(r->band_records);
+    device_release(r->emissivity_rows);
+    device_release(r->spectrum_rows);
+    device_release(r->temperature_k);
+    device_release(r->materials);
+    device_release(r->facet_ids);
+    device_release(r->facets);
+    spectra_free(r->bands);
+    shape_factor_free(r->grid);
+    ray_scene_free(r->rays);
+    free(r);
+}
+
+const render_plane *render_planes(const render *r, size_t *out_count)
+{
+    *out_count = r->plane_count;
+    return r->planes;
+}
+
+const render_stage *render_stages(const render *r, size_t *out_count)
+{
+    *out_count = r->stage_count;
+    return r->stages;
+}
+
+/* What one tile holds on the device. */
+typedef struct tile {
+    uint32_t first, count;
+    device_memory hit, lit, background, background_hit, background_lit;
+    device_memory truth_planes, band_planes;
+} tile;
+
+static status open_tile(tile *t, const render *r, uint32_t first, uint32_t count)
+{
+    status rc = STATUS_OK;
+    const size_t n = count;
+
+    *t = (tile){.first = first, .count = count};
+    TRY(device_allocate(r->dev, &t->hit, n * sizeof(hit_record), NULL));
+    TRY(device_allocate(r->dev, &t->lit, n * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &t->background, n * sizeof(background_record), NULL));
+    TRY(device_allocate(r->dev, &t->background_hit, n * sizeof(hit_record), NULL));
+    TRY(device_allocate(r->dev, &t->background_lit, n * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &t->truth_planes, n * TRUTH_PLANES * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &t->band_planes, n * r->s->band_count * BAND_PLANES * sizeof(float),
+                        NULL));
+out:
+    return rc;
+}
+
+static void free_tile(tile *t)
+{
+    device_release(t->band_planes);
+    device_release(t->truth_planes);
+    device_release(t->background_lit);
+    device_release(t->background_hit);
+    device_release(t->background);
+    device_release(t->lit);
+    device_release(t->hit);
+}
+
+/* What the pixels see, what lights them, and what stands around them. */
+static status trace_tile(const render *r, const tile *t)
+{
+    status rc = STATUS_OK;
+    const shape_factor_tables tables = {r->facets, r->temperature_k, r->materials};
+    const device_memory nodes = ray_scene_nodes(r->rays), blocks = ray_scene_blocks(r->rays);
+    const world_record world = ray_scene_world(r->rays);
+
+    TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count, t->hit));
+    TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->hit, t->lit));
+    TRY(shape_factor_run(r->grid, r->rays, &tables, t->count, t->hit, t->background));
+    TRY(device_run(r->dev, "mirror", shape1(t->count), ARG(t->count), ARG(r->camera), ARG(world),
+                   ARG(nodes), ARG(blocks), ARG(r->facets), ARG(r->temperature_k),
+                   ARG(r->materials), ARG(t->hit), ARG(t->background)));
+    TRY(device_run(r->dev, "background_hit", shape1(t->count), ARG(t->count), ARG(t->background),
+                   ARG(t->background_hit)));
+    TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->background_hit, t->background_lit));
+out:
+    return rc;
+}
+
+static status colour_tile(const render *r, const tile *t)
+{
+    status rc = STATUS_OK;
+    radiometry_record frame = r->frame;
+
+    frame.first_pixel = t->first;
+    frame.pixel_count = t->count;
+    TRY(device_run(r->dev, "truth", shape1(t->count), ARG(frame), ARG(r->camera), ARG(r->facets),
+                   ARG(r->facet_ids), ARG(r->materials), ARG(r->temperature_k), ARG(t->hit),
+                   ARG(t->background), ARG(t->lit), ARG(t->background_lit), ARG(t->truth_planes)));
+    TRY(device_run(r->dev, "radiometry", shape1(t->count), ARG(frame), ARG(r->camera),
+                   ARG(r->facets), ARG(r->materials), ARG(r->temperature_k), ARG(t->hit),
+                   ARG(t->background), ARG(t->lit), ARG(t->background_lit), ARG(r->spectrum_rows),
+                   ARG(r->emissivity_rows), ARG(r->band_records), ARG(r->ln_radiance),
+                   ARG(t->band_planes)));
+out:
+    return rc;
+}
+
+status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float *const *values)
+{
+    status rc = STATUS_OK;
+    tile t;
+
+    TRY(open_tile(&t, r, first_pixel, pixel_count));
+    TRY(trace_tile(r, &t));
+    TRY(colour_tile(r, &t));
+    for (size_t i = 0; i < r->plane_count; i++) {
+        const render_plane *p = &r->planes[i];
+        const device_memory from = p->is_of_band ? t.band_planes : t.truth_planes;
+        const size_t bytes = (size_t)pixel_count * sizeof(float);
+        if (!values[i]) continue;
+        TRY(device_download(r->dev, from, p->source * bytes, bytes, values[i] + first_pixel));
+    }
+out:
+    free_tile(&t);
+    return rc;
+}

@@ -1,0 +1,36 @@
+/* Render: the image of a scene, tile by tile. The only room that knows the order of the stages:
+ * tree, temperatures, spectra once; camera, sun, hemisphere, radiometry per tile. Thesis 2.5.5.
+ *
+ *   render_open(&r, scene, device);
+ *   while (more) render_tile(r, first, count, values);
+ *   render_free(r); */
+#ifndef RENDER_H
+#define RENDER_H
+
+#include "device.h"
+#include "render_plane.h"
+#include "scene.h"
+
+typedef struct render render;
+
+/* Does all that the pixels share. The scene and the device must outlive it. */
+status render_open(render **out, const scene *s, device *dev);
+void render_free(render *r);
+
+/* The planes of the scene, radiances first; they belong to the render. */
+const render_plane *render_planes(const render *r, size_t *out_count);
+
+/* Computes pixels first_pixel .. first_pixel + pixel_count - 1, counted along the rows. The values
+ * do not depend on how the image is cut into tiles.
+ *   values   shape (plane count): the whole plane, shape (rows, columns), or NULL: not wanted
+ * Fails with STATUS_MEMORY where the device has no room for the tile: try a smaller one. */
+status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float *const *values);
+
+/* Seconds of the stages before the first tile, on the host. */
+typedef struct render_stage {
+    const char *name;
+    double seconds;
+} render_stage;
+const render_stage *render_stages(const render *r, size_t *out_count);
+
+#endif

@@ -1,0 +1,75 @@
+#include "render_plane.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct plane_kind {
+    const char *name, *unit;
+    bool categorical;
+} plane_kind;
+
+/* As truth.cl writes them. */
+static const plane_kind truth_kinds[TRUTH_PLANES] = {
+    {"material", "number", true},      {"background_material", "number", true},
+    {"sunlit", "0..1", false},         {"background_sunlit", "0..1", false},
+    {"temperature_c", "C", false},     {"background_temperature_c", "C", false},
+    {"interaction", "number", true},   {"view_angle_deg", "degrees", false},
+    {"shape_factor", "cosine", false}, {"range_m", "m", false},
+    {"facet", "number", true},
+};
+
+/* As radiometry.cl writes them. */
+static const plane_kind band_kinds[BAND_PLANES] = {
+    {"radiance_%s", "W m-2 sr-1", false},      {"counts_%s", "counts", false},
+    {"apparent_temperature_%s_c", "C", false}, {"emissivity_%s", "1", false},
+    {"background_emissivity_%s", "1", false},
+};
+
+static render_plane truth_plane(const scene *s, uint32_t kind)
+{
+    const plane_kind *k = &truth_kinds[kind];
+    render_plane p = {.source = kind, .plane = {.unit = k->unit, .categorical = k->categorical}};
+
+    snprintf(p.name, sizeof p.name, "%s", k->name);
+    if (s->thesis && k->unit == truth_kinds[8].unit) p.plane.unit = "thesis eq. 2.4.2-6";
+    return p;
+}
+
+static render_plane band_plane(const scene *s, uint32_t band, uint32_t kind, double centre_um,
+                               double width_um)
+{
+    const plane_kind *k = &band_kinds[kind];
+    render_plane p = {.source = band * BAND_PLANES + kind,
+                      .is_of_band = true,
+                      .is_radiance = kind == 0,
+                      .plane = {.unit = k->unit}};
+
+    snprintf(p.name, sizeof p.name, k->name, s->bands[band].name);
+    if (p.is_radiance) {
+        p.plane.wavelength_um = centre_um;
+        p.plane.fwhm_um = width_um;
+        if (s->bands[band].is_mean) p.plane.unit = "W m-2 sr-1 um-1";
+    }
+    return p;
+}
+
+status render_plane_list(render_plane **out, size_t *out_count, const scene *s,
+                         const double *centre_um, const double *width_um)
+{
+    status rc = STATUS_OK;
+    const size_t count = TRUTH_PLANES + (size_t)s->band_count * BAND_PLANES;
+    render_plane *list = calloc(count, sizeof *list);
+    size_t n = 0;
+
+    NEED(list, STATUS_MEMORY, "no memory for the list of planes");
+    for (uint32_t b = 0; b < s->band_count; b++)
+        list[n++] = band_plane(s, b, 0, centre_um[b], width_um[b]);
+    for (uint32_t k = 0; k < TRUTH_PLANES; k++) list[n++] = truth_plane(s, k);
+    for (uint32_t b = 0; b < s->band_count; b++)
+        for (uint32_t k = 1; k < BAND_PLANES; k++) list[n++] = band_plane(s, b, k, 0.0, 0.0);
+    for (size_t i = 0; i < n; i++) list[i].plane.name = list[i].name;
+    *out = list;
+    *out_count = n;
+out:
+    return rc;
+}

@@ -1,0 +1,75 @@
+/* Scene: everything that a render is made from, read from scene.toml and the files that it names.
+ * Read-only once it is read. Thesis 2.5. */
+#ifndef SCENE_H
+#define SCENE_H
+
+#include "../kernels/records.h"
+#include "atmosphere.h"
+#include "band.h"
+#include "emissivity.h"
+#include "geometry.h"
+#include "site.h"
+#include "view.h"
+#include "weather.h"
+
+#include <stdbool.h>
+
+typedef enum scene_thermal {
+    SCENE_THERMAL_FIXED, /* every facet keeps its stated temperature */
+    SCENE_THERMAL_THERM
+} scene_thermal;
+
+/* A material that the scene uses. */
+typedef struct scene_material {
+    char *name;
+    material_record record; /* emissivity_first counts rows of all materials in their order */
+    emissivity *table;      /* NULL: grey */
+    double grey_emissivity; /* at all angles and wavelengths; unused with a table */
+    double thickness_m;     /* of facets that state none; 0: not stated */
+    double temperature_k;   /* for thermal fixed; 0: not stated */
+    bool two_sided;
+} scene_material;
+
+/* A file that the scene was read from. */
+typedef struct scene_input {
+    char *name; /* as the scene states it */
+    char *path; /* where it was found */
+} scene_input;
+
+typedef struct scene {
+    char *path, *folder, *name;
+    site place;
+    weather *history; /* NULL with thermal fixed and no [weather] */
+    atmosphere *air;
+    bool is_uniform; /* the sky goes all round, below the horizon too */
+    geometry *shape;
+    uint32_t material_count;
+    scene_material *materials; /* shape (material_count) */
+    uint32_t *material_of;     /* shape (shape->material_count), index into materials */
+    uint32_t ground_material;  /* index into materials; RECORD_NONE: no ground plane */
+    double ground_thickness_m;
+    view camera;
+    uint32_t band_count;
+    band *bands; /* shape (band_count) */
+    bool thesis;
+    scene_thermal thermal;
+    double hemisphere_zenith_step_deg, hemisphere_azimuth_step_deg;
+    size_t input_count;
+    scene_input *inputs;
+} scene;
+
+/* Reads a scene.
+ *   setting   shape (setting_count): "table.key=value", as --set takes them
+ * Goes on after an error to find the others: status_message then holds a line for each, with file
+ * and line. What is odd but usable is warned about. */
+status scene_read(scene **out, const char *path, const char *const *setting, size_t setting_count);
+void scene_free(scene *s);
+
+/* Number of rows in the emissivity table of all materials: 91 or 1 each. */
+uint32_t scene_emissivity_rows(const scene *s);
+
+/* Fills the records of the facets and, behind them, of the ground plane if there is one.
+ *   out   shape (facet_count + 1) */
+void scene_facet_records(const scene *s, facet_record *out);
+
+#endif

@@ -1,0 +1,273 @@
+#include "scene_parts.h"
+
+#include "material.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What one [[material]] states; not-a-number, NULL and -1: nothing. */
+typedef struct stated_material {
+    const toml_node *node;
+    const char *name, *emissivity_path;
+    double emissivity, specular_share, temperature_k, thickness_cm;
+    double density_kg_m3, specific_heat_j_kg_k, conductivity_w_m_k;
+    double solar_absorptance, exposed_area;
+    bool two_sided;
+} stated_material;
+
+/* Where materials are looked up. */
+typedef struct material_sources {
+    scene_reader *reader;
+    material_library *library;
+    const toml_node *library_node;
+    char *library_folder; /* with a final slash */
+    stated_material *stated;
+    size_t stated_count;
+} material_sources;
+
+static stated_material read_stated(scene_reader *reader, const toml_node *node)
+{
+    scene_table t = scene_table_open(reader, node, "material");
+    stated_material m = {.node = node,
+                         .name = "",
+                         .emissivity = NAN,
+                         .specular_share = NAN,
+                         .temperature_k = NAN,
+                         .thickness_cm = NAN,
+                         .density_kg_m3 = NAN,
+                         .specific_heat_j_kg_k = NAN,
+                         .conductivity_w_m_k = NAN,
+                         .solar_absorptance = NAN,
+                         .exposed_area = NAN};
+
+    scene_table_require(&t, "name", "the name that the geometry gives it");
+    scene_table_string(&t, "name", &m.name);
+    scene_table_number(&t, "emissivity", 0.0, 1.0, &m.emissivity);
+    scene_table_file(&t, "emissivity_file", &m.emissivity_path);
+    scene_table_number(&t, "specular_share", 0.0, 1.0, &m.specular_share);
+    scene_table_number(&t, "temperature_k", 1.0, 6000.0, &m.temperature_k);
+    scene_table_number(&t, "thickness_cm", 1e-4, 1e4, &m.thickness_cm);
+    scene_table_number(&t, "density_kg_m3", .01, 3e4, &m.density_kg_m3);
+    scene_table_number(&t, "specific_heat_j_kg_k", 1.0, 2e4, &m.specific_heat_j_kg_k);
+    scene_table_number(&t, "conductivity_w_m_k", 0.0, 5e3, &m.conductivity_w_m_k);
+    scene_table_number(&t, "solar_absorptance", 0.0, 1.0, &m.solar_absorptance);
+    scene_table_number(&t, "exposed_area", -1.0, 1.0, &m.exposed_area);
+    scene_table_bool(&t, "two_sided", &m.two_sided);
+    scene_table_close(&t);
+    return m;
+}
+
+static void read_all_stated(material_sources *from)
+{
+    const toml_node *list = toml_node_get(from->reader->root, "material");
+    const size_t count = list ? toml_node_count(list) : 0;
+
+    if (list && toml_node_kind(list) != TOML_ARRAY) {
+        scene_fail(from->reader, list, "material: expected [[material]] tables");
+        return;
+    }
+    from->stated = calloc(count + 1, sizeof *from->stated);
+    if (!from->stated) {
+        scene_fail(from->reader, list, "no memory for %zu materials", count);
+        return;
+    }
+    for (; from->stated_count < count; from->stated_count++)
+        from->stated[from->stated_count] =
+            read_stated(from->reader, toml_node_at(list, from->stated_count));
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < i; k++)
+            if (!strcmp(from->stated[i].name, from->stated[k].name))
+                scene_fail(from->reader, from->stated[i].node, "%s: there are two materials \"%s\"",
+                           toml_node_name(from->stated[i].node), from->stated[i].name);
+}
+
+static void read_library(material_sources *from)
+{
+    scene_table t =
+        scene_table_open(from->reader, toml_node_get(from->reader->root, "library"), "library");
+    const char *path;
+
+    if (!t.node) return;
+    scene_table_require(&t, "materials", "a .mat file");
+    from->library_node = toml_node_get(t.node, "materials");
+    if (scene_table_file(&t, "materials", &path)) {
+        const char *slash = strrchr(path, '/');
+        from->library_folder = strndup(path, slash ? (size_t)(slash - path + 1) : 0);
+        scene_took(from->reader, material_library_read(&from->library, path));
+    }
+    scene_table_close(&t);
+}
+
+static const stated_material *find_stated(const material_sources *from, const char *name)
+{
+    for (size_t i = 0; i < from->stated_count; i++)
+        if (!strcmp(from->stated[i].name, name)) return &from->stated[i];
+    return NULL;
+}
+
+/* Numbers of materials that only the scene states follow the library's codes. */
+static uint32_t stated_number(const material_sources *from, const stated_material *stated)
+{
+    int highest = 0;
+
+    for (int i = 0; from->library && i < from->library->count; i++)
+        if (from->library->items[i].code > highest) highest = from->library->items[i].code;
+    return (uint32_t)highest + 1u + (uint32_t)(stated - from->stated);
+}
+
+static float either(double stated, double otherwise)
+{
+    return (float)(isnan(stated) ? otherwise : stated);
+}
+
+static material_record make_record(const material_sources *from, const material *known,
+                                   const stated_material *stated)
+{
+    static const material unknown = {.density_kg_m3 = 0.0, .exposed_area = .5};
+    static const stated_material nothing = {.emissivity = NAN,
+                                            .specular_share = NAN,
+                                            .density_kg_m3 = NAN,
+                                            .specific_heat_j_kg_k = NAN,
+                                            .conductivity_w_m_k = NAN,
+                                            .solar_absorptance = NAN,
+                                            .exposed_area = NAN};
+    const material *base = known ? known : &unknown;
+    const stated_material *over = stated ? stated : &nothing;
+    /* Grey means the same in sunlight unless the scene says more. */
+    const double solar = isnan(over->emissivity) ? base->solar_absorptance : over->emissivity;
+
+    return (material_record){
+        .density_kg_m3 = either(over->density_kg_m3, base->density_kg_m3),
+        .specific_heat_j_kg_k = either(over->specific_heat_j_kg_k, base->specific_heat_j_kg_k),
+        .conductivity_w_m_k = either(over->conductivity_w_m_k, base->conductivity_w_m_k),
+        .solar_absorptance = either(over->solar_absorptance, solar),
+        .thermal_emissivity = either(over->emissivity, base->thermal_emissivity),
+        .exposed_area = either(over->exposed_area, base->exposed_area),
+        .specular_share = either(over->specular_share, base->specular_share),
+        .number = known ? (uint32_t)known->code : stated_number(from, stated),
+    };
+}
+
+/* Sets table or grey emissivity: the scene's file, the scene's number, the library's file. */
+static void read_emissivity(const material_sources *from, scene_material *m, const material *known,
+                            const stated_material *stated)
+{
+    scene_reader *reader = from->reader;
+    const char *path = NULL;
+
+    m->record.emissivity_angles = 1;
+    if (stated && stated->emissivity_path) {
+        path = stated->emissivity_path;
+    } else if (stated && !isnan(stated->emissivity)) {
+        m->grey_emissivity = stated->emissivity;
+        return;
+    } else if (!known || !strcmp(known->emissivity_file, "null")) {
+        scene_fail(reader, stated ? stated->node : from->library_node,
+                   "material %s: has no emissivity, expected emissivity or emissivity_file in "
+                   "[[material]]",
+                   m->name);
+        return;
+    } else {
+        path = scene_add_input(reader, from->library_node, from->library_folder,
+                               known->emissivity_file);
+    }
+    if (path && scene_took(reader, emissivity_read(&m->table, path)))
+        m->record.emissivity_angles = EMISSIVITY_ANGLES;
+}
+
+static void check_material(scene_reader *reader, const scene_material *m, const toml_node *node)
+{
+    const material_record *r = &m->record;
+
+    if (r->specular_share != 0.0f && r->specular_share != 1.0f)
+        scene_fail(reader, node, "material %s: specular_share is %g, expected 0 or 1", m->name,
+                   (double)r->specular_share);
+    if (reader->s->thermal == SCENE_THERMAL_FIXED) return;
+    if (!(r->density_kg_m3 > 0.0f) || !(r->specific_heat_j_kg_k > 0.0f))
+        scene_fail(reader, node,
+                   "material %s: thermal = \"therm\" needs density_kg_m3, specific_heat_j_kg_k and "
+                   "conductivity_w_m_k",
+                   m->name);
+}
+
+static void add_material(const material_sources *from, const char *name, const material *known,
+                         const stated_material *stated)
+{
+    scene *s = from->reader->s;
+    scene_material *m = &s->materials[s->material_count++];
+
+    m->name = strdup(name);
+    m->record = make_record(from, known, stated);
+    read_emissivity(from, m, known, stated);
+    if (stated) {
+        m->thickness_m = isnan(stated->thickness_cm) ? 0.0 : .01 * stated->thickness_cm;
+        m->temperature_k = isnan(stated->temperature_k) ? 0.0 : stated->temperature_k;
+        m->two_sided = stated->two_sided;
+    }
+    check_material(from->reader, m, stated ? stated->node : from->library_node);
+}
+
+/* Finds a material by code, or by name where the code is -1; adds it at its first use.
+ *   user   what names it, for the message */
+static uint32_t use_material(const material_sources *from, const char *name, int code,
+                             const char *user)
+{
+    scene *s = from->reader->s;
+    const stated_material *stated = find_stated(from, name);
+    const material *known = NULL;
+
+    if (from->library)
+        known = code >= 0 && !stated ? material_by_code(from->library, code)
+                                     : material_by_name(from->library, name);
+    if (!known && !stated) {
+        if (code >= 0)
+            scene_fail(from->reader, from->library_node,
+                       "%s: material %d (%s) is not in the library", user, code, name);
+        else
+            scene_fail(from->reader, from->library_node,
+                       "%s: material \"%s\" is neither in the library nor a [[material]]", user,
+                       name);
+        return RECORD_NONE;
+    }
+    const char *own = known ? known->name : name;
+    for (uint32_t i = 0; i < s->material_count; i++)
+        if (!strcmp(s->materials[i].name, own)) return i;
+    add_material(from, own, known, stated);
+    return s->material_count - 1;
+}
+
+static void use_all(const material_sources *from, const char *ground_material)
+{
+    scene *s = from->reader->s;
+    const geometry *g = s->shape;
+
+    s->ground_material = RECORD_NONE;
+    s->materials = calloc(g->material_count + 1, sizeof *s->materials);
+    s->material_of = calloc(g->material_count + 1, sizeof *s->material_of);
+    if (!s->materials || !s->material_of) {
+        scene_fail(from->reader, NULL, "no memory for %u materials", g->material_count);
+        return;
+    }
+    for (uint32_t i = 0; i < g->material_count; i++)
+        s->material_of[i] =
+            use_material(from, g->materials[i].name, g->materials[i].code, g->materials[i].path);
+    if (ground_material)
+        s->ground_material = use_material(from, ground_material, -1, "ground_material");
+    for (uint32_t i = 0, row = 0; i < s->material_count; i++) {
+        s->materials[i].record.emissivity_first = row;
+        row += s->materials[i].record.emissivity_angles;
+    }
+}
+
+void scene_read_materials(scene_reader *reader, const char *ground_material)
+{
+    material_sources from = {.reader = reader};
+
+    read_library(&from);
+    read_all_stated(&from);
+    if (reader->s->shape) use_all(&from, ground_material);
+    material_library_free(from.library);
+    free(from.library_folder);
+    free(from.stated);
+}

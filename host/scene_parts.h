@@ -1,0 +1,26 @@
+/* Scene parts: the tables of scene.toml, one function each, in the order in which they need each
+ * other. Failures are counted in the reader. */
+#ifndef SCENE_PARTS_H
+#define SCENE_PARTS_H
+
+#include "scene_table.h"
+
+/* [site] and [weather]; the name of the ground's material is set where there is one. */
+void scene_read_site(scene_reader *reader, const char **out_ground_material);
+void scene_read_weather(scene_reader *reader);
+
+/* [camera], [[band]], [render]. */
+void scene_read_camera(scene_reader *reader);
+void scene_read_bands(scene_reader *reader);
+void scene_read_render(scene_reader *reader);
+
+/* [atmosphere]; after the bands. */
+void scene_read_atmosphere(scene_reader *reader);
+
+/* [[geometry]]. */
+void scene_read_geometry(scene_reader *reader);
+
+/* [library] and [[material]]; after geometry and render: only what is used is kept. */
+void scene_read_materials(scene_reader *reader, const char *ground_material);
+
+#endif
