@@ -9,7 +9,7 @@
 
 struct output_folder {
     char *path;
-    size_t made_length; /* the shortest part of the path that had to be made; 0: none */
+    char *made;         /* shape (length of the path + 1): 1 where a part that was made ends */
     output_file **file; /* shape (file_count) */
     size_t file_count;
     bool committed;
@@ -21,7 +21,7 @@ static status make(output_folder *folder, const char *part, size_t length)
     struct stat found;
 
     if (mkdir(part, 0777) == 0) {
-        if (!folder->made_length) folder->made_length = length;
+        folder->made[length] = 1;
         goto out;
     }
     NEED(errno == EEXIST || (stat(part, &found) == 0 && S_ISDIR(found.st_mode)), STATUS_FILE,
@@ -66,6 +66,8 @@ status output_folder_open(output_folder **out, const char *path)
     NEED(folder, STATUS_MEMORY, "%s: no memory to make it", path);
     folder->path = strdup(path[0] ? path : ".");
     NEED(folder->path, STATUS_MEMORY, "%s: no memory to make it", path);
+    folder->made = calloc(strlen(folder->path) + 1, 1);
+    NEED(folder->made, STATUS_MEMORY, "%s: no memory to make it", path);
     TRY(make_with_parents(folder));
     *out = folder;
     folder = NULL;
@@ -103,15 +105,13 @@ out:
     return rc;
 }
 
-/* From the folder upwards to the first one made; a folder that is not empty stays. */
+/* From the folder upwards; one that is not empty stays. */
 static void remove_made(output_folder *folder)
 {
-    const size_t full = strlen(folder->path);
-
-    for (size_t length = full; length >= folder->made_length; length--) {
-        if (!ends_a_part(folder->path, length)) continue;
+    for (size_t length = strlen(folder->path); length > 0; length--) {
+        if (!folder->made[length]) continue;
         folder->path[length] = '\0';
-        if (rmdir(folder->path) != 0) return;
+        rmdir(folder->path);
     }
 }
 
@@ -119,7 +119,8 @@ void output_folder_free(output_folder *folder)
 {
     if (!folder) return;
     for (size_t i = 0; i < folder->file_count; i++) output_file_free(folder->file[i]);
-    if (folder->made_length && !folder->committed) remove_made(folder);
+    if (folder->made && !folder->committed) remove_made(folder);
+    free(folder->made);
     free(folder->file);
     free(folder->path);
     free(folder);
