@@ -61,13 +61,13 @@ static inline ray_frame ray_frame_of(const ray *r)
 /* The signs of eight lanes as bits. */
 static inline uint ray_mask(const int8 lanes)
 {
-#ifdef __AVX__
+#if defined(__AVX__) && !defined(RAY_PORTABLE)
     return (uint)__builtin_ia32_movmskps256(as_float8(lanes));
 #else
     const int8 bits = lanes & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
-    const int4 half = bits.lo | bits.hi;
-    const int2 quarter = half.lo | half.hi;
-    return (uint)(quarter.x | quarter.y);
+    const int4 fours = bits.lo | bits.hi;
+    const int2 twos = fours.lo | fours.hi;
+    return (uint)(twos.x | twos.y);
 #endif
 }
 

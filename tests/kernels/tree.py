@@ -4,7 +4,7 @@ import pathlib
 import subprocess
 import tempfile
 
-import numpy
+import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCES = ["bvh.c", "bvh_binary.c", "polygon.c", "status.c"]
@@ -32,16 +32,16 @@ _bvh = _load()
 
 def build(corner, position):
     """Returns node bytes, block bytes, low and high."""
-    corner = numpy.ascontiguousarray(corner, numpy.uint32)
-    position = numpy.ascontiguousarray(position, numpy.float32)
+    corner = np.ascontiguousarray(corner, np.uint32)
+    position = np.ascontiguousarray(position, np.float32)
     tree = ctypes.c_void_p()
     code = _bvh.bvh_build(ctypes.byref(tree), ctypes.c_uint32(len(corner)),
                           corner.ctypes.data_as(ctypes.c_void_p),
                           position.ctypes.data_as(ctypes.c_void_p))
     assert code == 0
     tables = _bvh.bvh_look(tree).contents
-    nodes = numpy.frombuffer(ctypes.string_at(tables.node, 256 * tables.node_count), numpy.uint8)
-    blocks = numpy.frombuffer(ctypes.string_at(tables.block, 320 * tables.block_count), numpy.uint8)
-    low, high = numpy.array(tables.low), numpy.array(tables.high)
+    nodes = np.frombuffer(ctypes.string_at(tables.node, 256 * tables.node_count), np.uint8)
+    blocks = np.frombuffer(ctypes.string_at(tables.block, 320 * tables.block_count), np.uint8)
+    low, high = np.array(tables.low), np.array(tables.high)
     _bvh.bvh_free(tree)
     return nodes, blocks, low, high
