@@ -16,12 +16,9 @@ ASPHALT = {"density_kg_m3": 2114.0, "specific_heat_j_kg_k": 920.0, "conductivity
 
 
 @pytest.fixture(scope="module")
-def thermal(context):
+def thermal(opencl):
     """Runs the kernel: temperatures of shape (rows, facets)."""
-    source = (KERNELS / "thermal.cl").read_text()
-    program = cl.Program(context, source).build(f"-cl-std=CL1.2 -I {KERNELS}")
-    kernel = program.thermal
-    queue = cl.CommandQueue(context)
+    context, kernel = opencl.context, opencl.build("thermal")
 
     def run(facets, materials, forcing, *, first=0, rows=None, weight=1.0, step_s=STEP_S, lit=None):
         rows = len(forcing) if rows is None else rows
@@ -33,8 +30,8 @@ def thermal(context):
         sunlit = None if lit is None else cl.Buffer(context, copy, hostbuf=packed(lit, words))
         out = np.empty((rows, len(facets)), np.float32)
         target = cl.Buffer(context, cl.mem_flags.WRITE_ONLY, out.nbytes)
-        kernel(queue, (len(facets),), None, span[0], *memory, sunlit, target)
-        cl.enqueue_copy(queue, out, target)
+        kernel(opencl.queue, (len(facets),), None, span[0], *memory, sunlit, target)
+        cl.enqueue_copy(opencl.queue, out, target)
         return out
 
     return run
