@@ -14,6 +14,7 @@
 #include <tiny_obj_loader.h>
 #pragma GCC diagnostic pop
 
+#include <algorithm>
 #include <istream>
 #include <streambuf>
 
@@ -100,6 +101,8 @@ class obj_lines : public std::streambuf
         std::size_t count = 0;
 
         for (std::string_view word; !(word = mesh_text_word(rest)).empty(); count++) {
+            if (std::count(word.begin(), word.end(), '/') > 2)
+                lines_.fail(word, "at most three indices");
             const long long index = lines_.integer(word.substr(0, word.find('/')));
             if (!index || index > INT32_MAX || index < -INT32_MAX)
                 lines_.fail(word, "a vertex index, which counts from 1 or, backwards, from -1");

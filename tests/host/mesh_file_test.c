@@ -147,6 +147,8 @@ static void a_bad_obj_line_is_named(void **state)
     assert_refused("e.obj", "# 1\nv 0 0 O\n", ":2: \"O\", expected a number");
     assert_refused("f.obj", "v 1 2\n", ":1: nothing, expected a number");
     assert_refused("g.obj", CUBE "f 1 2\n", ":15: a face of 2 corners, expected 3 or more");
+    assert_refused("j.obj", CUBE "f 1 2 3/1/1/4\n",
+                   ":15: \"3/1/1/4\", expected at most three indices");
     assert_refused("h.obj", CUBE "f\n", ":15: a face of 0 corners, expected 3 or more");
     assert_refused("i.obj", "v 0 0 \\\n\\\n0\nv 1 \\\nx 0\n", ":5: \"x\", expected a number");
 }
