@@ -157,7 +157,7 @@ static status store(card_deck *deck, const card *c, const double *values, const 
     for (size_t i = 0; i < c->count; i++) {
         const field *f = &c->fields[i];
         const bool whole = f->decimals <= 0;
-        char *place = (char *)deck + f->offset;
+        void *place = (char *)deck + f->offset;
         if (values[i] < f->low || values[i] > f->high || (whole && values[i] != floor(values[i])))
             return record_file_reject(file, "%s with %s %s %g to %g", c->name, f->name,
                                       whole ? "a whole number from" : "from", f->low, f->high);
@@ -235,7 +235,7 @@ static void write_card(FILE *stream, const card_deck *deck, const card *c)
 {
     for (size_t i = 0; i < c->count; i++) {
         const field *f = &c->fields[i];
-        const char *place = (const char *)deck + f->offset;
+        const void *place = (const char *)deck + f->offset;
         int width = f->width;
         if (f == fields_1 && deck->modtran) {
             fputc(deck->modtran_band ? 'T' : 'F', stream);

@@ -1,17 +1,18 @@
 #include "geometry_file.h"
 
+#include "constants.h"
 #include "output_file.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define ZERO_CELSIUS 273.15                      /* K */
-#define CENTIMETRE 0.01                          /* m */
-#define LANGLEY_PER_HOUR_W_M2 (41840.0 / 3600.0) /* thermochemical calories */
-#define COMPUTED_C (-1.0)                        /* a default temperature that is none */
-#define COS_TOLERANCE 0.99619469809174555        /* of 5 degrees */
-#define AREA_TOLERANCE 1e-9                      /* of the longest edge squared */
+#define KELVIN ((double)ZERO_CELSIUS_K)
+#define CENTIMETRE 0.01 /* m */
+#define LANGLEY_PER_HOUR ((double)LANGLEY_PER_HOUR_W_M2)
+#define COMPUTED_C (-1.0)                 /* a default temperature that is none */
+#define COS_TOLERANCE 0.99619469809174555 /* of 5 degrees */
+#define AREA_TOLERANCE 1e-9               /* of the longest edge squared */
 #define POSITION_LIMIT_M 1e7
 
 enum { NULL_FIELDS = 3, VERTEX_LIMIT = 10000, FACET_LIMIT = 1 << 28 };
@@ -149,9 +150,9 @@ static status read_facet_values(geometry_facet *f, record_file *file)
     TRY(record_file_number(file, 0.0, 1.0, &f->shape_factor, "the default shape factor"));
     for (int i = 0; i < NULL_FIELDS; i++)
         TRY(record_file_text(file, &f->unused[i], "a field that holds null"));
-    f->stated_temperature_k = temperature_c == COMPUTED_C ? 0.0 : temperature_c + ZERO_CELSIUS;
+    f->stated_temperature_k = temperature_c == COMPUTED_C ? 0.0 : temperature_c + KELVIN;
     f->thickness_m = thickness_cm * CENTIMETRE;
-    f->power_w_m2 = power_ly_h * LANGLEY_PER_HOUR_W_M2;
+    f->power_w_m2 = power_ly_h * LANGLEY_PER_HOUR;
 out:
     return rc;
 }
@@ -321,12 +322,12 @@ static void write_polygon(FILE *stream, const geometry_file *g, const geometry_f
 static void write_facet(FILE *stream, const geometry_file *g, const geometry_facet *f)
 {
     const double temperature_c =
-        f->stated_temperature_k > 0.0 ? f->stated_temperature_k - ZERO_CELSIUS : COMPUTED_C;
+        f->stated_temperature_k > 0.0 ? f->stated_temperature_k - KELVIN : COMPUTED_C;
 
     fprintf(stream, "FACE\n%s\n%d-%d-%d\n", f->name, f->id[0], f->id[1], f->id[2]);
     fprintf(stream, "%s\n%d\n%s\n", f->material_name, f->material_code, f->attribute);
     fprintf(stream, "%.10g\n%.10g\n%.10g\n%.10g\n", temperature_c, f->thickness_m / CENTIMETRE,
-            f->power_w_m2 / LANGLEY_PER_HOUR_W_M2, f->shape_factor);
+            f->power_w_m2 / LANGLEY_PER_HOUR, f->shape_factor);
     fprintf(stream, "%s\n%s\n%s\n", f->unused[0], f->unused[1], f->unused[2]);
     write_polygon(stream, g, f);
 }

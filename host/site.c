@@ -74,7 +74,7 @@ static bool take_date(const char **text, long *days)
 static bool take_clock(const char **text, double *seconds)
 {
     int hour, minute, second = 0;
-    double fraction = 0.0, weight = 0.1;
+    double fraction = 0.0;
 
     if (!take_digits(text, 2, 0, 23, &hour) || !take(text, ":")) return false;
     if (!take_digits(text, 2, 0, 59, &minute)) return false;
@@ -82,7 +82,7 @@ static bool take_clock(const char **text, double *seconds)
         if (!take_digits(text, 2, 0, 59, &second)) return false;
         if (take(text, ".,")) {
             if (!isdigit((unsigned char)**text)) return false;
-            for (; isdigit((unsigned char)**text); ++*text, weight *= 0.1)
+            for (double weight = 0.1; isdigit((unsigned char)**text); ++*text, weight *= 0.1)
                 fraction += weight * (**text - '0');
         }
     }

@@ -20,7 +20,7 @@ static char text_file_folder[64], text_file_at[128];
 static inline int text_file_setup(void **state)
 {
     (void)state;
-    strcpy(text_file_folder, "/tmp/radsig-test-XXXXXX");
+    strcpy(text_file_folder, P_tmpdir "/radsig-test-XXXXXX");
     if (!mkdtemp(text_file_folder)) return -1;
     snprintf(text_file_at, sizeof text_file_at, "%s/file", text_file_folder);
     return 0;
