@@ -1,6 +1,6 @@
 /* Polygon File Format, text and binary. OpenMesh's reader keeps coordinates as floats, which moves
- * a map's metres by half a metre, makes those of integer type zero, and takes a truncated text for
- * a whole one. */
+ * metres of a map grid by up to a quarter, makes integer coordinates of a binary file zero, and
+ * takes a truncated text for a whole one. */
 #include "failure.hpp"
 #include "mesh_soup.hpp"
 #include "mesh_text.hpp"

@@ -1,5 +1,5 @@
 /* Stereolithography, binary and text. OpenMesh's reader leaves out degenerate facets, which would
- * shift the numbers of all later ones, and takes every nan vertex for the same one. */
+ * shift the numbers of all later ones, and takes a nan vertex for one that is there already. */
 #include "failure.hpp"
 #include "mesh_soup.hpp"
 #include "mesh_text.hpp"
