@@ -61,18 +61,16 @@ def file_axes(body):
     return np.round(clockwise * scale) / scale
 
 
-def orientation(vertices):
-    """Area vector that looks out, slope from level and azimuth clockwise from north, in degrees."""
-    area = -np.cross(vertices[2] - vertices[0], vertices[-1] - vertices[1]) / 2 + 0.0
-    level = np.hypot(area[0], area[1])
-    slope = np.degrees(np.arctan2(level, area[2]))
-    azimuth = (
-        np.degrees(np.arctan2(-area[1], area[0])) % 360 if level > 1e-9 * abs(area[2]) else 0.0
-    )
-    return area, slope, azimuth
+def orientations(facets):
+    """Area vectors that look out; slopes from level, azimuths clockwise from north, in degrees."""
+    area = 0.0 - shape.area_vectors(facets)
+    north, west, up = area.T
+    level = np.hypot(north, west)
+    azimuth = np.where(level > 1e-9 * np.abs(up), np.degrees(np.arctan2(-west, north)) % 360, 0.0)
+    return area, np.degrees(np.arctan2(level, up)), azimuth
 
 
-def last_number(slope_deg):
+def last_numbers(slope_deg):
     """The number that closes a facet. Only two values are printed: 0 facing down and .25 on a wall.
 
     assumed: the square of the share of the dome above the facet's plane, which is 1 facing up.
@@ -80,50 +78,33 @@ def last_number(slope_deg):
     return ((1 + np.cos(np.radians(slope_deg))) / 2) ** 2
 
 
-def facet_text(name, number, surface, code, vertices):
-    area, slope, azimuth = orientation(vertices)
-    lines = [
-        "FACE",
-        name,
-        number,
-        surface.material,
-        str(code),
-        surface.attribute,
-        "-1",
-        f"{surface.thickness_cm:g}",
-        f"{surface.power_ly_h:g}",
-        "1.0",
-        "null",
-        "null",
-        "null",
-        str(len(vertices)),
-    ]
-    lines += ["%.6e %.6e %.6e" % tuple(vertex) for vertex in vertices]
-    lines += [
-        "%.20e %.20e %.20e" % tuple(area),
-        "%.6e" % slope,
-        "%.6e" % azimuth,
-        "%.6e" % last_number(slope),
-    ]
-    return "\n".join(lines)
-
-
 def part_facets(contents):
-    """All (surface, vertices) of a part in the axes of the file."""
-    return [
-        (surface, vertices)
-        for surface, body in contents
-        for vertices in shape.facet_list(file_axes(body), WARP_LIMIT_M)
-    ]
+    """The facets of a part in the axes of the file, and the surface of each."""
+    surfaces = [surface for surface, body in contents for _ in body]
+    bodies = np.concatenate([body for _, body in contents])
+    facets, rows = shape.tidy(file_axes(bodies), WARP_LIMIT_M)
+    return facets, [surfaces[row] for row in rows]
 
 
-def face_stem(thing, part, surface):
+def face_name(thing, part, surface):
     """RUNWAY2_RUNWAY, GRASS: object, part where there are several, attribute where it says more."""
     attribute = surface.attribute.upper()
-    names = (
-        [thing.name] + ([part] if part else []) + ([attribute] if attribute != thing.name else [])
-    )
-    return "_".join(names)
+    names = [thing.name, part, attribute if attribute != thing.name else ""]
+    return "_".join(name for name in names if name)
+
+
+def facet_text(names, surface, code, vertices, looks):
+    """One facet: its name and number; its area vector, slope, azimuth and last number."""
+    if (vertices[2] == vertices[3]).all():
+        vertices = vertices[:3]
+    lines = ["FACE", *names, surface.material, f"{code}", surface.attribute, "-1"]
+    lines += [f"{surface.thickness_cm:g}", f"{surface.power_ly_h:g}", "1.0", "null", "null", "null"]
+    lines += [
+        f"{len(vertices)}",
+        *["%.6e %.6e %.6e" % tuple(vertex) for vertex in vertices.tolist()],
+    ]
+    lines.append("%.20e %.20e %.20e\n%.6e\n%.6e\n%.6e\n" % tuple(looks))
+    return "\n".join(lines)
 
 
 def write(path, things, codes):
@@ -135,11 +116,12 @@ def write(path, things, codes):
             for j, (part, contents) in enumerate(thing.parts.items(), 1):
                 stem = f"{thing.name}_{part}" if part else thing.name
                 file.write(f"PART\n{stem}_ATTS\n{i}-{j}-0\n")
-                for k, (surface, vertices) in enumerate(part_facets(contents), 1):
-                    name = f"{face_stem(thing, part, surface)}_{k}"
-                    file.write(
-                        facet_text(name, f"{i}-{j}-{k}", surface, codes[surface.material], vertices)
-                        + "\n"
-                    )
-                parts, facets = parts + 1, facets + k
+                polygons, surfaces = part_facets(contents)
+                area, slope, azimuth = orientations(polygons)
+                looks = np.column_stack([area, slope, azimuth, last_numbers(slope)]).tolist()
+                for k, surface in enumerate(surfaces):
+                    names = f"{face_name(thing, part, surface)}_{k + 1}", f"{i}-{j}-{k + 1}"
+                    code = codes[surface.material]
+                    file.write(facet_text(names, surface, code, polygons[k], looks[k]))
+                parts, facets = parts + 1, facets + len(surfaces)
     return len(things), parts, facets

@@ -112,10 +112,9 @@ def assemble():
     """All objects in the order of the file; the fence takes the parts and facets that are left."""
     things = pavement() + structures() + fighters() + traffic() + furniture()
     things.insert(GRASS_PLACE - 1, ground.grass())
-    facets = sum(
-        len(gdb_file.part_facets(part)) for thing in things for part in thing.parts.values()
-    )
-    parts = sum(len(thing.parts) for thing in things)
+    contents = [part for thing in things for part in thing.parts.values()]
+    facets = sum(len(gdb_file.part_facets(part)[1]) for part in contents)
+    parts = len(contents)
     way = [
         (TARGET[0] + e, TARGET[1] + n)
         for e, n in ((-58, -165), (-110, -165), (-110, 240), (-58, 240))

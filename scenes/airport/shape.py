@@ -195,33 +195,36 @@ def turned(body, angle_deg, axis, about=(0, 0, 0)):
     return (body - about) @ turn.T + about
 
 
-def facet_list(body, warp_limit_m):
-    """Single facets of three or four vertices: repeated vertices go, warped quads are split.
+def area_vectors(facets):
+    """Right-handed, their length the area; shape (facet, 3)."""
+    return np.cross(facets[:, 2] - facets[:, 0], facets[:, 3] - facets[:, 1]) / 2
 
-    A quad is warped where its diagonals pass each other by more than the limit.
+
+def warps(facets):
+    """How far the diagonals pass each other: 0 where a facet is flat."""
+    area = area_vectors(facets)
+    size = np.maximum(np.linalg.norm(area, axis=1), 1e-30)
+    return np.abs(np.einsum("ij,ij->i", area, facets[:, 1] - facets[:, 0])) / size
+
+
+def tidy(facets, warp_limit_m):
+    """Facets as a file may hold them, and the row that each comes from.
+
+    Triangles repeat their third vertex; quads that are warped by more than the limit become two
+    triangles along the shorter diagonal; what is smaller than a square millimetre goes.
     """
-    facets = []
-    along, across = body[:, 2] - body[:, 0], body[:, 3] - body[:, 1]
-    twice_area = np.cross(along, across)
-    size = np.linalg.norm(twice_area, axis=1)
-    warp = np.abs(np.einsum("ij,ij->i", twice_area, body[:, 1] - body[:, 0])) / np.maximum(
-        size, 1e-30
-    )
-    same = (body == np.roll(body, -1, 1)).all(2)
-    first_diagonal_shorter = (along**2).sum(1) <= (across**2).sum(1)
-    for quad, equal, count, bend, first in zip(
-        body, same, same.sum(1), warp, first_diagonal_shorter
-    ):
-        if count == 0 and bend > warp_limit_m:
-            pieces = ([0, 1, 2], [0, 2, 3]) if first else ([0, 1, 3], [1, 2, 3])
-        else:
-            pieces = (np.flatnonzero(~equal),)
-        facets += [quad[list(piece)] for piece in pieces if is_facet(quad[list(piece)])]
-    return facets
-
-
-def is_facet(vertices):
-    if len(vertices) < 3:
-        return False
-    area = np.cross(vertices[2] - vertices[0], vertices[-1] - vertices[1]) / 2
-    return (area**2).sum() > 1e-12  # a square millimetre
+    row = np.arange(len(facets))
+    same = (facets == np.roll(facets, -1, 1)).all(2)
+    turn = np.where(same.any(1), (same.argmax(1) + 2) % 4, 0)
+    facets = np.take_along_axis(facets, ((turn[:, None] + np.arange(4)) % 4)[..., None], 1)
+    split = ~same.any(1) & (warps(facets) > warp_limit_m)
+    quads = facets[split]
+    diagonals = np.linalg.norm(quads[:, :2] - quads[:, 2:], axis=2)
+    along = (diagonals[:, 0] <= diagonals[:, 1])[:, None, None]
+    first = np.where(along, quads[:, [0, 1, 2, 2]], quads[:, [0, 1, 3, 3]])
+    second = np.where(along, quads[:, [0, 2, 3, 3]], quads[:, [1, 2, 3, 3]])
+    facets = np.concatenate([facets[~split], first, second])
+    row = np.concatenate([row[~split], row[split], row[split]])
+    keep = np.linalg.norm(area_vectors(facets), axis=1) >= 1e-6
+    order = np.argsort(row[keep], kind="stable")
+    return facets[keep][order], row[keep][order]
