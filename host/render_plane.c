@@ -35,20 +35,20 @@ static render_plane truth_plane(const scene *s, uint32_t kind)
     return p;
 }
 
-static render_plane band_plane(const scene *s, uint32_t band, uint32_t kind, double centre_um,
+static render_plane band_plane(const scene *s, uint32_t index, uint32_t kind, double centre_um,
                                double width_um)
 {
     const plane_kind *k = &band_kinds[kind];
-    render_plane p = {.source = band * BAND_PLANES + kind,
+    render_plane p = {.source = index * BAND_PLANES + kind,
                       .is_of_band = true,
                       .is_radiance = kind == 0,
                       .plane = {.unit = k->unit}};
 
-    snprintf(p.name, sizeof p.name, k->name, s->bands[band].name);
+    snprintf(p.name, sizeof p.name, k->name, s->bands[index].name);
     if (p.is_radiance) {
         p.plane.wavelength_um = centre_um;
         p.plane.fwhm_um = width_um;
-        if (s->bands[band].is_mean) p.plane.unit = "W m-2 sr-1 um-1";
+        if (s->bands[index].is_mean) p.plane.unit = "W m-2 sr-1 um-1";
     }
     return p;
 }

@@ -3,6 +3,7 @@
 #include "scene_parts.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -176,6 +177,48 @@ out:
     return rc;
 }
 
+static void free_band(band *b)
+{
+    free(b->name);
+    sensor_free(b->response);
+}
+
+/* Takes the next name of a list; returns what is left, or NULL at the end. */
+static const char *next_name(const char *list, char *name, size_t size)
+{
+    const size_t length = strcspn(list, ",");
+
+    snprintf(name, size, "%.*s", (int)length, list);
+    return list[length] ? list + length + 1 : NULL;
+}
+
+status scene_keep_bands(scene *s, const char *names)
+{
+    status rc = STATUS_OK;
+    char name[256];
+    bool *kept = calloc(s->band_count, sizeof *kept);
+    uint32_t count = 0;
+
+    NEED(kept, STATUS_MEMORY, "no memory for the bands");
+    for (const char *left = names; left;) {
+        uint32_t i = 0;
+        left = next_name(left, name, sizeof name);
+        while (i < s->band_count && strcmp(s->bands[i].name, name)) i++;
+        NEED(i < s->band_count, STATUS_ARGUMENT, "there is no band '%s' in this scene", name);
+        kept[i] = true;
+    }
+    for (uint32_t i = 0; i < s->band_count; i++) {
+        if (kept[i])
+            s->bands[count++] = s->bands[i];
+        else
+            free_band(&s->bands[i]);
+    }
+    s->band_count = count;
+out:
+    free(kept);
+    return rc;
+}
+
 void scene_free(scene *s)
 {
     if (!s) return;
@@ -188,10 +231,7 @@ void scene_free(scene *s)
     }
     free(s->materials);
     free(s->material_of);
-    for (uint32_t i = 0; i < s->band_count; i++) {
-        free(s->bands[i].name);
-        sensor_free(s->bands[i].response);
-    }
+    for (uint32_t i = 0; i < s->band_count; i++) free_band(&s->bands[i]);
     free(s->bands);
     for (size_t i = 0; i < s->input_count; i++) {
         free(s->inputs[i].name);

@@ -65,6 +65,10 @@ typedef struct scene {
 status scene_read(scene **out, const char *path, const char *const *setting, size_t setting_count);
 void scene_free(scene *s);
 
+/* Drops all bands but those named in a list with commas between. Fails with STATUS_ARGUMENT if there
+ * is no band of a name. */
+status scene_keep_bands(scene *s, const char *names);
+
 /* Number of rows in the emissivity table of all materials: 91 or 1 each. */
 uint32_t scene_emissivity_rows(const scene *s);
 

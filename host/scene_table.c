@@ -195,6 +195,21 @@ static scene_input *grow_inputs(scene *s)
     return &s->inputs[s->input_count++];
 }
 
+/* Drops the last input if an earlier one is the same file; returns the earlier one's path. */
+static const char *drop_if_known(scene *s)
+{
+    scene_input *last = &s->inputs[s->input_count - 1];
+
+    for (size_t i = 0; i + 1 < s->input_count; i++) {
+        if (strcmp(s->inputs[i].path, last->path)) continue;
+        free(last->name);
+        free(last->path);
+        s->input_count--;
+        return s->inputs[i].path;
+    }
+    return NULL;
+}
+
 const char *scene_add_input(scene_reader *reader, const toml_node *node, const char *folder,
                             const char *name)
 {
@@ -208,6 +223,8 @@ const char *scene_add_input(scene_reader *reader, const toml_node *node, const c
         return NULL;
     }
     snprintf(input->path, size, "%s%s", *name == '/' ? "" : folder, name);
+    const char *known = drop_if_known(reader->s);
+    if (known) return known;
     if (access(input->path, R_OK) != 0) {
         scene_fail(reader, node, "%s: %s", input->path, strerror(errno));
         return NULL;

@@ -64,3 +64,8 @@ const char *status_warnings(void)
     warnings[warnings_now][0] = '\0';
     return text;
 }
+
+const char *status_warnings_so_far(void)
+{
+    return warnings[warnings_now];
+}

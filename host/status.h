@@ -31,6 +31,9 @@ __attribute__((format(printf, 1, 2))) void status_warn(const char *format, ...);
 /* The warnings since the last call, a line each, and forgets them; valid until the next call. */
 const char *status_warnings(void);
 
+/* The same without forgetting them. */
+const char *status_warnings_so_far(void);
+
 /* Both need a local `status rc` and a label `out`. */
 #define NEED(condition, code, ...)                                                                 \
     do {                                                                                           \

@@ -1,0 +1,153 @@
+#include "command.h"
+#include "command_scene.h"
+#include "command_value.h"
+#include "render_output.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char help[] =
+    "usage: radsig render SCENE -o DIR [OPTION ...]\n"
+    "\n"
+    "Makes the radiance image of a scene and its truth planes:\n"
+    "  DIR/NAME.img, .hdr         radiance, one ENVI band per sensor band\n"
+    "  DIR/NAME_truth.img, .hdr   every other plane, its unit in the band name\n"
+    "  DIR/NAME.exr, NAME_<plane>.png, NAME.json\n"
+    "\n"
+    "  -o, --output DIR       folder for the files; made where it is absent\n"
+    "  --bands A,B            only these bands\n"
+    "  --planes A,B           only these truth planes\n"
+    "  --size WxH             pixels: columns x rows\n"
+    "  --time ISO             time with offset, as 1987-06-24T10:00:00-05:00\n"
+    "  --mode exact|thesis    exact integrals, or what the thesis did\n"
+    "  --set TABLE.KEY=VALUE  change a value of the scene, as --set camera.twist_deg=10\n"
+    "  --exr                  write NAME.exr above 16 bands too\n"
+    "  --device N             OpenCL device, see radsig devices\n";
+
+static volatile sig_atomic_t stop;
+
+static void on_signal(int signal_number)
+{
+    (void)signal_number;
+    stop = 1;
+}
+
+typedef struct arguments {
+    command_settings settings;
+    render_output_options output;
+    const char *bands;
+    double device;
+} arguments;
+
+static bool add_size(command_settings *settings, const char *text)
+{
+    unsigned columns, rows;
+    char end, value[64];
+
+    if (sscanf(text, "%ux%u%c", &columns, &rows, &end) != 2) return false;
+    snprintf(value, sizeof value, "[%u, %u]", columns, rows);
+    return command_settings_add(settings, "camera.pixels", value);
+}
+
+/* Takes one option; false where its value is none. */
+static bool take_option(arguments *a, int option, const char *value)
+{
+    switch (option) {
+    case 'o':
+        a->output.folder = value;
+        return *value != '\0';
+    case 'b':
+        a->bands = value;
+        return *value != '\0';
+    case 'p':
+        a->output.planes = value;
+        return *value != '\0';
+    case 's':
+        return add_size(&a->settings, value);
+    case 't':
+        return command_settings_add(&a->settings, "site.time", value);
+    case 'm':
+        return command_settings_add(&a->settings, "render.mode", value);
+    case 'S':
+        return strchr(value, '=') && command_settings_add(&a->settings, "", value);
+    case 'd':
+        return command_number(value, 0.0, 63.0, &a->device);
+    default:
+        a->output.wants_exr = true;
+        return true;
+    }
+}
+
+static const struct option options[] = {{"output", required_argument, NULL, 'o'},
+                                        {"bands", required_argument, NULL, 'b'},
+                                        {"planes", required_argument, NULL, 'p'},
+                                        {"size", required_argument, NULL, 's'},
+                                        {"time", required_argument, NULL, 't'},
+                                        {"mode", required_argument, NULL, 'm'},
+                                        {"set", required_argument, NULL, 'S'},
+                                        {"exr", no_argument, NULL, 'x'},
+                                        {"device", required_argument, NULL, 'd'},
+                                        {"help", no_argument, NULL, 'h'},
+                                        {NULL, 0, NULL, 0}};
+
+/* Returns -1 to go on, or the exit code. */
+static int take_arguments(arguments *a, int argc, char **argv)
+{
+    int option, index = 0;
+
+    opterr = 0;
+    while ((option = getopt_long(argc, argv, ":o:", options, &index)) != -1) {
+        if (option == 'h') {
+            fputs(help, stdout);
+            return 0;
+        }
+        if (option == '?') return command_misuse("render", "unknown option '%s'", argv[optind - 1]);
+        if (option == ':') return command_misuse("render", "%s needs a value", argv[optind - 1]);
+        if (!take_option(a, option, optarg))
+            return command_misuse("render", "'%s' is no value for %s", optarg, argv[optind - 2]);
+    }
+    if (optind + 1 != argc)
+        return command_misuse("render", argc > optind ? "one scene at a time" : "needs a scene");
+    if (!a->output.folder) return command_misuse("render", "needs -o DIR");
+    a->output.scene_path = argv[optind];
+    return -1;
+}
+
+static status run(const arguments *a)
+{
+    status rc = STATUS_OK;
+    scene *s = NULL;
+    device *dev = NULL;
+
+    TRY(command_scene_read(&s, a->output.scene_path, &a->settings));
+    if (a->bands) TRY(scene_keep_bands(s, a->bands));
+    TRY(device_open(&dev, (int)a->device));
+    TRY(render_output(s, dev, &a->output));
+out:
+    device_free(dev);
+    scene_free(s);
+    return rc;
+}
+
+int command_render(int argc, char **argv)
+{
+    arguments *a = calloc(1, sizeof *a);
+    int code;
+
+    if (!a) return command_end("render", status_set(STATUS_MEMORY, "no memory"));
+    a->device = -1.0;
+    a->output.stop = &stop;
+    a->output.shows_progress = isatty(STDERR_FILENO);
+    code = take_arguments(a, argc, argv);
+    if (code < 0) {
+        const struct sigaction action = {.sa_handler = on_signal};
+        sigaction(SIGINT, &action, NULL);
+        sigaction(SIGTERM, &action, NULL);
+        code = command_end("render", run(a));
+    }
+    free(a);
+    return code;
+}

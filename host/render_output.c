@@ -1,0 +1,246 @@
+#include "render_output.h"
+
+#include "quick_look.h"
+#include "render_summary.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* Pixels of a tile; a device without room for it gets smaller ones, down to the least. */
+enum { TILE_MOST = 1 << 16, TILE_LEAST = 1 << 10 };
+
+typedef struct writing {
+    const scene *s;
+    const render_output_options *options;
+    render *r;
+    const render_plane *planes;
+    size_t plane_count;
+    output_folder *folder;
+    image *cube, *truth;
+    float **values; /* shape (plane_count): of the image's plane, NULL: not wanted */
+    char time[SITE_TIME_SIZE];
+    image_label *materials;
+} writing;
+
+/* True if `name` stands in a list of names with commas between. */
+static bool is_listed(const char *list, const char *name)
+{
+    const size_t length = strlen(name);
+
+    for (const char *at = list; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL)
+        if (!strncmp(at, name, length) && (at[length] == ',' || at[length] == '\0')) return true;
+    return false;
+}
+
+static bool is_wanted(const writing *w, const render_plane *p)
+{
+    if (p->is_radiance) return true;
+    if (w->options->planes) return is_listed(w->options->planes, p->name);
+    return !p->is_of_band || w->s->band_count <= RENDER_OUTPUT_BANDS;
+}
+
+static status check_names(const writing *w)
+{
+    status rc = STATUS_OK;
+    char name[RENDER_PLANE_NAME_SIZE];
+
+    for (const char *at = w->options->planes; at;) {
+        const size_t length = strcspn(at, ",");
+        bool known = false;
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        for (size_t i = 0; i < w->plane_count; i++) known |= !strcmp(w->planes[i].name, name);
+        NEED(known, STATUS_ARGUMENT, "there is no plane '%s' in this scene", name);
+        at = at[length] ? at + length + 1 : NULL;
+    }
+out:
+    return rc;
+}
+
+static char *file_name(char out[512], const scene *s, const char *plane, const char *extension)
+{
+    snprintf(out, 512, "%s%s%s%s", s->name, *plane ? "_" : "", plane, extension);
+    return out;
+}
+
+/* Opens one image with the wanted planes of a kind, and sets where their values go. */
+static status open_image(writing *w, image **out, bool is_radiance)
+{
+    status rc = STATUS_OK;
+    char stem[512];
+    image_plane *list = malloc(w->plane_count * sizeof *list);
+    size_t count = 0, at = 0;
+
+    NEED(list, STATUS_MEMORY, "no memory for the list of planes");
+    for (size_t i = 0; i < w->plane_count; i++)
+        if (w->planes[i].is_radiance == is_radiance && is_wanted(w, &w->planes[i]))
+            list[count++] = w->planes[i].plane;
+    if (count == 0) goto out;
+    TRY(image_create(out, w->folder, file_name(stem, w->s, is_radiance ? "" : "truth", ""),
+                     (uint32_t)w->s->camera.columns, (uint32_t)w->s->camera.rows, list, count));
+    for (size_t i = 0; i < w->plane_count; i++)
+        if (w->planes[i].is_radiance == is_radiance && is_wanted(w, &w->planes[i]))
+            w->values[i] = image_values(*out, at++);
+out:
+    free(list);
+    return rc;
+}
+
+static status open_writing(writing *w, const scene *s, device *dev,
+                           const render_output_options *options)
+{
+    status rc = STATUS_OK;
+
+    *w = (writing){.s = s, .options = options};
+    site_format_time(s->place.time_s, 0, w->time);
+    TRY(render_open(&w->r, s, dev));
+    w->planes = render_planes(w->r, &w->plane_count);
+    TRY(check_names(w));
+    w->values = calloc(w->plane_count, sizeof *w->values);
+    w->materials = malloc((s->material_count + 1) * sizeof *w->materials);
+    NEED(w->values && w->materials, STATUS_MEMORY, "no memory for the list of planes");
+    for (uint32_t i = 0; i < s->material_count; i++)
+        w->materials[i] =
+            (image_label){(int32_t)s->materials[i].record.number, s->materials[i].name};
+    TRY(output_folder_open(&w->folder, options->folder));
+    TRY(open_image(w, &w->cube, true));
+    TRY(open_image(w, &w->truth, false));
+out:
+    return rc;
+}
+
+static void free_writing(writing *w)
+{
+    image_free(w->truth);
+    image_free(w->cube);
+    output_folder_free(w->folder);
+    free(w->materials);
+    free(w->values);
+    render_free(w->r);
+}
+
+static void show_progress(const writing *w, uint64_t done, uint64_t all)
+{
+    if (!w->options->shows_progress) return;
+    fprintf(stderr, "\r%s: %3.0f %% of %llu pixels%s", w->s->name,
+            floor(100.0 * (double)done / (double)all), (unsigned long long)all,
+            done == all ? "\n" : "");
+}
+
+static status render_pixels(writing *w)
+{
+    status rc = STATUS_OK;
+    const uint64_t all = (uint64_t)w->s->camera.columns * (uint64_t)w->s->camera.rows;
+    uint32_t most = TILE_MOST;
+
+    for (uint64_t done = 0; done < all;) {
+        const uint32_t count = all - done < most ? (uint32_t)(all - done) : most;
+        NEED(!*w->options->stop, STATUS_INTERRUPTED, "interrupted");
+        rc = render_tile(w->r, (uint32_t)done, count, w->values);
+        if (rc == STATUS_MEMORY && most > TILE_LEAST) {
+            most /= 2;
+            continue;
+        }
+        TRY(rc);
+        done += count;
+        show_progress(w, done, all);
+    }
+out:
+    return rc;
+}
+
+/* Numbers of materials and of interactions with their names. */
+static quick_look labelled(const writing *w, const render_plane *p, quick_look look)
+{
+    static const image_label interactions[] = {
+        {0, "missed"}, {1, "diffuse"}, {2, "specular to sky"}, {3, "specular to background"}};
+
+    if (look.colours != QUICK_LOOK_LABELS) return look;
+    if (!strcmp(p->name, "interaction")) {
+        look.label = interactions;
+        look.label_count = sizeof interactions / sizeof *interactions;
+    } else {
+        look.label = w->materials;
+        look.label_count = w->s->material_count;
+    }
+    return look;
+}
+
+/* Of many bands only the first, the middle and the last become pictures. */
+static bool is_pictured(const writing *w, size_t plane)
+{
+    const uint32_t bands = w->s->band_count;
+    const uint32_t index = w->planes[plane].source / BAND_PLANES;
+
+    if (!w->planes[plane].is_of_band || bands <= RENDER_OUTPUT_BANDS) return true;
+    return index == 0 || index == bands / 2 || index == bands - 1;
+}
+
+static status write_pictures(const writing *w)
+{
+    status rc = STATUS_OK;
+    char name[512];
+
+    for (size_t i = 0; i < w->plane_count; i++) {
+        const render_plane *p = &w->planes[i];
+        if (!w->values[i] || !is_pictured(w, i)) continue;
+        const quick_look look = {
+            .columns = (uint32_t)w->s->camera.columns,
+            .rows = (uint32_t)w->s->camera.rows,
+            .value = w->values[i],
+            .scene = w->s->name,
+            .time = w->time,
+            .plane = p->name,
+            .unit = p->plane.unit,
+            .colours = quick_look_colours_of(&p->plane),
+        };
+        const quick_look complete = labelled(w, p, look);
+        TRY(quick_look_write(w->folder, file_name(name, w->s, p->name, ".png"), &complete));
+    }
+out:
+    return rc;
+}
+
+static status write_files(writing *w, device *dev, double start)
+{
+    status rc = STATUS_OK;
+    char description[512], name[512];
+    const image_field field = {
+        .key = "radsig materials", .label = w->materials, .label_count = w->s->material_count};
+    const image_header header = {description, w->time, &field, 1};
+    image *const images[] = {w->cube, w->truth};
+    const render_summary summary = {w->s,           w->options->scene_path, w->planes, w->values,
+                                    w->plane_count, w->materials,           w->r,      dev,
+                                    start};
+
+    snprintf(description, sizeof description, "radsig %s, scene %s, %s mode", RADSIG_VERSION,
+             w->s->name, w->s->thesis ? "thesis" : "exact");
+    TRY(write_pictures(w));
+    if (w->s->band_count <= RENDER_OUTPUT_BANDS || w->options->wants_exr)
+        TRY(image_write_exr(w->folder, file_name(name, w->s, "", ".exr"), images, w->truth ? 2 : 1,
+                            &header));
+    TRY(image_finish(w->cube, &header));
+    if (w->truth) TRY(image_finish(w->truth, &header));
+    TRY(render_summary_write(w->folder, file_name(name, w->s, "", ".json"), &summary));
+    NEED(!*w->options->stop, STATUS_INTERRUPTED, "interrupted");
+    TRY(output_folder_commit(w->folder));
+out:
+    return rc;
+}
+
+status render_output(const scene *s, device *dev, const render_output_options *options)
+{
+    status rc = STATUS_OK;
+    struct timespec start;
+    writing w = {0};
+
+    clock_gettime(CLOCK_MONOTONIC, &start);
+    TRY(open_writing(&w, s, dev, options));
+    TRY(render_pixels(&w));
+    TRY(write_files(&w, dev, (double)start.tv_sec + 1e-9 * (double)start.tv_nsec));
+out:
+    free_writing(&w);
+    return rc;
+}

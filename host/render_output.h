@@ -1,0 +1,26 @@
+/* Render output: renders a scene into a folder: ENVI cube and truth, OpenEXR, pictures, report. */
+#ifndef RENDER_OUTPUT_H
+#define RENDER_OUTPUT_H
+
+#include "render.h"
+
+#include <signal.h>
+
+/* Above this many bands the planes per band but the radiance are left out unless they are asked
+ * for, three radiances become pictures, and the OpenEXR is written on request. */
+enum { RENDER_OUTPUT_BANDS = 16 };
+
+typedef struct render_output_options {
+    const char *scene_path; /* as the user gave it */
+    const char *folder;
+    const char *planes;  /* truth planes, names with commas between; NULL: the default ones */
+    bool wants_exr;      /* also above RENDER_OUTPUT_BANDS bands */
+    bool shows_progress; /* on stderr */
+    const volatile sig_atomic_t *stop; /* ends the render with STATUS_INTERRUPTED when it is set */
+} render_output_options;
+
+/* Renders and writes NAME.img, NAME_truth.img, their headers, NAME.exr, NAME_<plane>.png and
+ * NAME.json; all of them appear together at the end, or nothing does. */
+status render_output(const scene *s, device *dev, const render_output_options *options);
+
+#endif

@@ -1,0 +1,138 @@
+#include "render_summary.h"
+
+#include "render_report.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+enum { STAGE_LIMIT = 64, SETTING_COUNT = 3 };
+
+typedef struct lists {
+    render_report_band *bands;
+    image_plane *planes;
+    render_report_input *inputs;
+    size_t plane_count;
+    render_report_stage stages[STAGE_LIMIT];
+    size_t stage_count;
+    char names[STAGE_LIMIT][64];
+} lists;
+
+static void list_bands(lists *l, const scene *s)
+{
+    const atmosphere *air = s->air;
+
+    for (uint32_t i = 0; i < s->band_count; i++) {
+        const band *b = &s->bands[i];
+        l->bands[i] = (render_report_band){b->name, b->response ? air->wavelength_um[0] : b->low_um,
+                                           b->response ? air->wavelength_um[air->point_count - 1]
+                                                       : b->high_um,
+                                           b->gain, b->offset};
+    }
+}
+
+static status list_inputs(lists *l, const scene *s)
+{
+    status rc = STATUS_OK;
+
+    for (size_t i = 0; i < s->input_count; i++) {
+        render_report_input *input = &l->inputs[i];
+        input->path = s->inputs[i].name;
+        TRY(render_report_hash(s->inputs[i].path, input->sha256, &input->bytes));
+    }
+out:
+    return rc;
+}
+
+static void add_stage(lists *l, const char *label, const char *name, double seconds)
+{
+    if (l->stage_count == STAGE_LIMIT) return;
+    char *text = l->names[l->stage_count];
+    snprintf(text, sizeof l->names[0], "%s%s", label, name);
+    l->stages[l->stage_count++] = (render_report_stage){text, seconds};
+}
+
+static status list_stages(lists *l, const render_summary *summary)
+{
+    status rc = STATUS_OK;
+    const device_time *times;
+    size_t count;
+    struct timespec now;
+    const render_stage *stages = render_stages(summary->r, &count);
+
+    for (size_t i = 0; i < count; i++) add_stage(l, "host ", stages[i].name, stages[i].seconds);
+    TRY(device_times(summary->dev, &times, &count));
+    for (size_t i = 0; i < count; i++) add_stage(l, "kernel ", times[i].kernel, times[i].seconds);
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    add_stage(l, "", "all but reading",
+              (double)now.tv_sec + 1e-9 * (double)now.tv_nsec - summary->start_s);
+out:
+    return rc;
+}
+
+static status gather(lists *l, const render_summary *summary)
+{
+    status rc = STATUS_OK;
+    const scene *s = summary->s;
+
+    l->bands = calloc(s->band_count, sizeof *l->bands);
+    l->planes = calloc(summary->plane_count, sizeof *l->planes);
+    l->inputs = calloc(s->input_count, sizeof *l->inputs);
+    NEED(l->bands && l->planes && l->inputs, STATUS_MEMORY, "no memory for the report");
+    list_bands(l, s);
+    for (size_t i = 0; i < summary->plane_count; i++)
+        if (summary->values[i]) l->planes[l->plane_count++] = summary->planes[i].plane;
+    TRY(list_inputs(l, s));
+    TRY(list_stages(l, summary));
+out:
+    return rc;
+}
+
+status render_summary_write(output_folder *folder, const char *name, const render_summary *summary)
+{
+    status rc = STATUS_OK;
+    const scene *s = summary->s;
+    const device_info *info = device_describe(summary->dev);
+    char time[SITE_TIME_SIZE];
+    lists l = {0};
+    const render_report_setting settings[SETTING_COUNT] = {
+        {"hemisphere_step_deg.zenith", NULL, s->hemisphere_zenith_step_deg},
+        {"hemisphere_step_deg.azimuth", NULL, s->hemisphere_azimuth_step_deg},
+        {"radiance", s->bands[0].is_mean ? "mean" : "band", 0.0}};
+
+    site_format_time(s->place.time_s, s->place.utc_offset_min, time);
+    TRY(gather(&l, summary));
+    const render_report report = {
+        .scene = s->name,
+        .scene_path = summary->scene_path,
+        .mode = s->thesis ? "thesis" : "exact",
+        .thermal = s->thermal == SCENE_THERMAL_THERM ? "therm" : "fixed",
+        .time = time,
+        .latitude_deg = s->place.latitude_deg,
+        .longitude_deg = s->place.longitude_deg,
+        .platform = info->platform,
+        .device = info->name,
+        .device_version = info->version,
+        .columns = (uint32_t)s->camera.columns,
+        .rows = (uint32_t)s->camera.rows,
+        .band = l.bands,
+        .band_count = s->band_count,
+        .plane = l.planes,
+        .plane_count = l.plane_count,
+        .material = summary->materials,
+        .material_count = s->material_count,
+        .setting = settings,
+        .setting_count = SETTING_COUNT,
+        .input = l.inputs,
+        .input_count = s->input_count,
+        .warnings = status_warnings_so_far(),
+        .stage = l.stages,
+        .stage_count = l.stage_count,
+    };
+    TRY(render_report_write(folder, name, &report));
+out:
+    free(l.bands);
+    free(l.planes);
+    free(l.inputs);
+    return rc;
+}

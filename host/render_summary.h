@@ -1,0 +1,22 @@
+/* Render summary: gathers for NAME.json what a render was made from and how long it took. */
+#ifndef RENDER_SUMMARY_H
+#define RENDER_SUMMARY_H
+
+#include "render.h"
+
+typedef struct render_summary {
+    const scene *s;
+    const char *scene_path;
+    const render_plane *planes;
+    float *const *values; /* shape (plane_count): NULL: the plane was not written */
+    size_t plane_count;
+    const image_label *materials; /* shape (s->material_count) */
+    const render *r;
+    device *dev;
+    double start_s; /* monotonic clock */
+} render_summary;
+
+/* Writes the report; hashes every input. The warnings so far stand in it and stay to be printed. */
+status render_summary_write(output_folder *folder, const char *name, const render_summary *summary);
+
+#endif
