@@ -39,7 +39,7 @@ kernel void hemisphere(const uint count, const uint cell_count, const world_reco
         const ray r = ray_leaving(&world, at.point, at.normal, direction);
         record.facet = ray_closest(nodes, blocks, &r).facet;
         if (record.facet == RECORD_NONE && !ray_meet_ground(&world, &r, &record))
-            met.open += in_frame[3];
+            hemisphere_add(met.open, in_frame[3]);
         else
             hemisphere_count_met(&met, c, in_frame[3], facet[record.facet].material,
                                  temperature_k[record.facet]);
@@ -51,7 +51,7 @@ kernel void hemisphere(const uint count, const uint cell_count, const world_reco
         const ray r = ray_leaving(&world, at.point, at.normal, direction);
         record = ray_record(blocks, &r, ray_closest(nodes, blocks, &r));
         if (record.facet == RECORD_NONE) ray_meet_ground(&world, &r, &record);
-        back.shape_factor = met.open / (met.open + met.blocked);
+        back.shape_factor = met.open[0] / (met.open[0] + met.blocked[0]);
         back.mean_temperature_k = met.base_k + met.excess_k / (float)met.met_count;
         back.material = met.material[best];
         back.facet = record.facet;
