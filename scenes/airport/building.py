@@ -230,12 +230,8 @@ def shed(name, depth=9.0, half=3.2, height=2.8):
             [(-half, BASE), (half, BASE), (half, height), (0, ridge), (-half, height)], -depth, 0, 0
         ),
     )
-    slope = [(half + 0.4, height - 0.22), (0, ridge + 0.03), (-half - 0.4, height - 0.22)]
-    thing.add(
-        "ROOF",
-        of.SHINGLES,
-        *[shape.strip(side, -0.1, -depth - 0.4, 0.4, 0, 6) for side in (slope[:2], slope[1:])],
-    )
+    slopes = [(half + 0.4, height - 0.22), (0, ridge + 0.03), (-half - 0.4, height - 0.22)]
+    thing.add("ROOF", of.SHINGLES, shape.strip(slopes, -0.1, -depth - 0.4, 0.4, 0, 6))
     thing.add("DOOR", of.PLANK, shape.box((-0.1, -1.2, BASE - 0.05), (0.06, 1.2, 2.3)))
     thing.add(
         "WINDOWS",

@@ -128,6 +128,8 @@ def main():
     path = pathlib.Path(sys.argv[1]) if len(sys.argv) == 2 else HERE / "airport.gdb"
     try:
         counts = gdb_file.write(path, assemble(), gdb_file.read_codes(CODES))
+    except KeyError as name:
+        sys.exit(f"make_geometry.py: {CODES}: no material {name}, expected all of surfaces.py")
     except (OSError, ValueError) as error:
         sys.exit(f"make_geometry.py: {error}")
     if counts != (OBJECTS, PARTS, FACETS):

@@ -170,6 +170,15 @@ def test_no_facet_is_there_twice(airport):
     assert len(seen) == len(airport.facets)
 
 
+def test_no_edge_has_more_than_two_facets(airport):
+    edges = collections.Counter()
+    for facet in airport.facets:
+        places = list(map(tuple, facet.vertices.tolist()))
+        edges.update(map(frozenset, zip(places, places[1:] + places[:1])))
+
+    assert max(edges.values()) == 2
+
+
 def test_vertices_run_clockwise_around_the_printed_area_vector(airport):
     p = airport.corners()
     right_handed = numpy.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 1]) / 2
