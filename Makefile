@@ -40,6 +40,7 @@ SCENES := $(patsubst scenes/%/make_geometry.py,scenes/%/.geometry,$(wildcard sce
 
 .DELETE_ON_ERROR:
 .SECONDARY:
+.SECONDEXPANSION:
 .PHONY: help deps all scenes demo test lint bench renders clean
 
 ## help: list the targets
@@ -99,7 +100,7 @@ $(BUILD)/kernel_files.c: $(KERNELS) Makefile | build/deps
 ## scenes: generate the geometry and the library files of scenes/ (they are not in git)
 scenes: $(SCENES) scenes/library/.emissivity
 
-scenes/%/.geometry: scenes/%/*.py | build/deps
+scenes/%/.geometry: $$(wildcard scenes/$$*/*.py) scenes/library/materials.mat | build/deps
 	$(PYTHON) scenes/$*/make_geometry.py
 	@touch $@
 

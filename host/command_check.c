@@ -23,7 +23,7 @@ static void print_place(const scene *s)
            s->place.latitude_deg, s->place.longitude_deg, time);
     if (s->ground_material != RECORD_NONE)
         printf("ground      %s, z = %.3f m, endless\n", s->materials[s->ground_material].name,
-               (double)s->shape->low[2] + s->shape->origin_m[2]);
+               s->ground_z_m);
 }
 
 static void print_weather(const scene *s)

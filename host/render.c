@@ -58,7 +58,8 @@ static status open_rays(render *r)
     TRY(bvh_build(&tree, g->facet_count, (const uint32_t(*)[4])g->corner,
                   (const float(*)[3])g->position));
     TRY(ray_scene_open(&r->rays, r->dev, tree));
-    if (s->ground_material != RECORD_NONE) ray_scene_set_ground(r->rays, g->facet_count, g->low[2]);
+    if (s->ground_material != RECORD_NONE)
+        ray_scene_set_ground(r->rays, g->facet_count, (float)(s->ground_z_m - g->origin_m[2]));
     TRY(shape_factor_open(&r->grid, r->dev, s->thesis ? SHAPE_FACTOR_THESIS : SHAPE_FACTOR_COSINE,
                           s->hemisphere_zenith_step_deg, s->hemisphere_azimuth_step_deg));
     end_stage(r, "tree");

@@ -59,6 +59,23 @@ static void check_facets(scene_reader *reader)
     }
 }
 
+/* The ground plane goes on from the scene's own ground: the largest facet of its material that faces
+ * up and is level, else the lowest point. */
+static double ground_height(const scene *s)
+{
+    const geometry *g = s->shape;
+    double height = (double)g->low[2];
+    float largest_m2 = 0.0f;
+
+    for (uint32_t i = 0; i < g->facet_count; i++) {
+        if (s->material_of[g->material[i]] != s->ground_material) continue;
+        if (g->normal[i][2] < .9999f || g->area_m2[i] <= largest_m2) continue;
+        largest_m2 = g->area_m2[i];
+        height = (double)g->position[g->corner[i][0]][2];
+    }
+    return height + g->origin_m[2];
+}
+
 /* The ground plane is as thick as its material, or as the first facet of it. */
 static void set_ground(scene_reader *reader)
 {
@@ -73,6 +90,7 @@ static void set_ground(scene_reader *reader)
         return;
     }
     const scene_material *m = &s->materials[s->ground_material];
+    s->ground_z_m = ground_height(s);
     s->ground_thickness_m = m->thickness_m;
     for (uint32_t i = 0; i < g->facet_count && s->ground_thickness_m == 0.0; i++)
         if (s->material_of[g->material[i]] == s->ground_material)

@@ -48,6 +48,7 @@ typedef struct scene {
     uint32_t *material_of;     /* shape (shape->material_count), index into materials */
     uint32_t ground_material;  /* index into materials; RECORD_NONE: no ground plane */
     double ground_thickness_m;
+    double ground_z_m; /* ENU: of the largest level facet of its material, else the lowest point */
     view camera;
     uint32_t band_count;
     band *bands; /* shape (band_count) */
