@@ -4,8 +4,8 @@
  * Launch: (count). ray: (count, 6) origin, direction; out_range: (count) in lengths of the
  * direction, INFINITY for a miss; out_facet: (count). */
 kernel void trace(const uint count, const world_record world, global const bvh_node *nodes,
-                  global const bvh_block *blocks, global const float *rays,
-                  global float *out_range, global uint *out_facet)
+                  global const bvh_block *blocks, global const float *rays, global float *out_range,
+                  global uint *out_facet)
 {
     const uint i = get_global_id(0);
     if (i >= count) return;

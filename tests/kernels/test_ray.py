@@ -110,6 +110,28 @@ def test_no_ray_leaves_a_closed_sphere_far_from_the_origin(opencl, shift):
     assert np.count_nonzero(facet == NONE) == 0
 
 
+def hills(count, step):
+    """A square of (count, count) hilly cells of two triangles each."""
+    x, y = np.meshgrid(*2 * [(np.arange(count + 1) - count / 2) * step])
+    position = np.stack([x, y, step * np.sin(x) * np.cos(y)], -1).reshape(-1, 3)
+    a = (np.arange(count)[:, None] * (count + 1) + np.arange(count)).ravel()
+    faces = np.concatenate([np.stack([a, a + 1, a + count + 2], 1),
+                            np.stack([a, a + count + 2, a + count + 1], 1)])
+    return cases.mesh(position, faces)
+
+
+def test_no_ray_from_14_km_falls_through_the_ground(opencl):
+    mesh = hills(100, step=5.0)
+    target = edge_targets(mesh)
+    target = target[(np.abs(target[:, :2]) < 230).all(1)]  # beyond, a ray may pass over the border
+    camera = (7162.4, -6951.7, 10000.0)
+    rays = np.hstack([np.tile(camera, (len(target), 1)), target - camera])
+    world = RayWorld(opencl, mesh)
+
+    assert np.count_nonzero(world.trace(rays)[1] == NONE) == 0
+    assert world.occluded(rays).all()
+
+
 @pytest.mark.parametrize("zero", [0.0, -0.0, 1e-30, -1e-30])
 @pytest.mark.parametrize("axis", [0, 1, 2])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
