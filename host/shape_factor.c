@@ -128,11 +128,6 @@ void shape_factor_free(shape_factor_grid *grid)
     free(grid);
 }
 
-uint32_t shape_factor_cell_count(const shape_factor_grid *grid)
-{
-    return grid->cell_count;
-}
-
 status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
                         const shape_factor_tables *tables, uint32_t count, device_memory hit,
                         device_memory out_background)

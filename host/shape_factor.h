@@ -28,7 +28,6 @@ typedef struct shape_factor_grid shape_factor_grid;
 status shape_factor_open(shape_factor_grid **out, device *dev, shape_factor_reading reading,
                          double zenith_step_deg, double azimuth_step_deg);
 void shape_factor_free(shape_factor_grid *grid);
-uint32_t shape_factor_cell_count(const shape_factor_grid *grid);
 
 /* What the rays may meet; all three are read at the ground's facet too. */
 typedef struct shape_factor_tables {

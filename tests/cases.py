@@ -1,6 +1,7 @@
 """Inputs that tests and benches share: meshes as (corner, position).
 
-corner: uint32, shape (facets, 4), counter-clockwise from outside, the fourth NO_CORNER for a triangle;
+corner: uint32, shape (facets, 4), counter-clockwise from outside, the fourth NO_CORNER for a
+triangle;
 position: float32, shape (vertices, 3), metres.
 """
 import numpy as np

@@ -69,7 +69,8 @@ def test_an_endless_wall_at_the_point_hides_half_the_sky(opencl):
 
     out = factors(opencl, wall, points((-1.0, 0, 0), UP))
 
-    assert out["shape_factor"][0] == pytest.approx(0.5, abs=1e-6)  # 6 of 12 azimuths, all elevations
+    # 6 of 12 azimuths at all elevations
+    assert out["shape_factor"][0] == pytest.approx(0.5, abs=1e-6)
 
 
 # Shares of the weight above 30 degrees: 1 - sin^2, 1 - sin and cos of 30; notes of the field agree.
@@ -83,8 +84,8 @@ def test_a_ring_up_to_30_degrees_leaves_the_closed_form(opencl, reading, share):
 
 
 def ring_of_materials(opencl, material, temperature_k, number=None):
-    """A low wall of 15 quads around the origin, each met by one ray of the lowest ring; cell j of it
-    (azimuth 12 + 24 j degrees) meets quad (3 - j) mod 15. NONE leaves a gap."""
+    """A low wall of 15 quads around the origin, each met by one ray of the lowest ring; cell j of
+    it (azimuth 12 + 24 j degrees) meets quad (3 - j) mod 15. NONE leaves a gap."""
     corner, position = cases.ring(10.0, 12.0, count=15)
     keep = [i for i in range(15) if material[i] != NONE]
     world = RayWorld(opencl, (corner[keep], position))

@@ -17,8 +17,8 @@ MESHES = {
 
 
 def meet(mesh, rays):
-    """Moeller-Trumbore in float64: ranges of shape (rays, triangles), inf for a miss, and the facet of
-    every triangle."""
+    """Moeller-Trumbore in float64: ranges of shape (rays, triangles), inf for a miss, and the facet
+    of every triangle."""
     vertices, facet = cases.triangles(*mesh)
     a, u, v = vertices[:, 0], vertices[:, 1] - vertices[:, 0], vertices[:, 2] - vertices[:, 0]
     origin, direction = rays[:, None, :3], rays[:, None, 3:]

@@ -12,7 +12,8 @@ SOURCES = ["bvh.c", "bvh_binary.c", "polygon.c", "status.c"]
 
 class Tables(ctypes.Structure):
     _fields_ = [("node", ctypes.c_void_p), ("block", ctypes.c_void_p)]
-    _fields_ += [(name, ctypes.c_uint32) for name in ("node_count", "block_count", "triangle_count")]
+    _fields_ += [(name, ctypes.c_uint32)
+                 for name in ("node_count", "block_count", "triangle_count")]
     _fields_ += [("low", ctypes.c_float * 3), ("high", ctypes.c_float * 3)]
 
 
