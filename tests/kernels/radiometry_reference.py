@@ -1,0 +1,202 @@
+"""The equations of thesis 2.4 in float64 numpy, one pixel at a time, and random pixels to try them on.
+
+Written from eq. 2.4-1 and 2.4-2 with tau_TB = tau2c = 1 (nothing transmissive in the scene)."""
+import numpy as np
+import records
+from records import DIFFUSE, MISSED, NONE, SPECULAR_BACKGROUND, SPECULAR_SKY
+
+FIRST, SECOND = 1.191042972397188e8, 1.438776877e4  # CODATA 2018: 2 h c^2, h c / k
+
+
+def planck(wavelength_um, temperature_k):
+    """eq. 2.4-5, W m-2 sr-1 um-1."""
+    with np.errstate(over="ignore"):
+        return FIRST / wavelength_um**5 / np.expm1(SECOND / (wavelength_um * temperature_k))
+
+
+def unit(v):
+    v = np.asarray(v, np.float64)
+    return v / np.linalg.norm(v, axis=-1, keepdims=True)
+
+
+def angle_deg(cosine):
+    return np.degrees(np.arccos(np.clip(cosine, -1, 1)))
+
+
+def between(rows, position):
+    """The row at a fractional index, linear; outside, the nearest."""
+    position = min(max(position, 0.0), len(rows) - 1.0)
+    low = min(int(position), max(len(rows) - 2, 0))
+    high = min(low + 1, len(rows) - 1)
+    return rows[low] + (position - low) * (rows[high] - rows[low])
+
+
+class Reference:
+    def __init__(self, case):
+        f = self.frame = case.frame[0]
+        self.case = case
+        self.rows = case.spectra.astype(np.float64)
+        self.wavelength_um = case.wavelength_um
+        self.emissivity_rows = case.emissivity.astype(np.float64)
+        paths, first = f["path_count"], records.PATHS
+        self.tau2, self.path = (self.rows[first + k * paths:][:paths] for k in (0, 1))
+        self.sky_table = self.rows[first + 2 * paths:].reshape(
+            f["zenith_count"], f["azimuth_count"], -1)
+
+    def emissivity(self, material, angle):
+        rows = self.emissivity_rows[material["emissivity_first"]:][:material["emissivity_angles"]]
+        return between(rows, np.floor(angle + 0.5) if self.frame["thesis"] else angle)
+
+    def sky(self, direction):
+        """eq. 2.4.1-1 to 2.4.1-3; below the horizon, the horizon."""
+        azimuth = np.degrees(np.arctan2(direction[0], direction[1])) % 360
+        zenith = angle_deg(direction[2]) / self.frame["zenith_step_deg"]
+        columns = np.stack([between(self.sky_table[:, k], zenith)
+                            for k in range(self.frame["azimuth_count"])])
+        return between(columns, azimuth / self.frame["azimuth_step_deg"])
+
+    def ray(self, pixel):
+        c, n = self.case.camera[0], int(self.frame["first_pixel"]) + pixel
+        row, column = divmod(n, int(self.frame["columns"]))
+        return unit(c["corner"].astype(np.float64) + (column + 0.5) * c["across"].astype(np.float64)
+                    + (row + 0.5) * c["down"].astype(np.float64))
+
+    def background(self, pixel):
+        """e_B B(T_B) + E_S/pi tau1 tau_SB cos(theta_B) (1 - e_B), and e_B."""
+        b = self.case.background[pixel]
+        normal = b["normal"].astype(np.float64)
+        to_target = unit(self.case.hit["point"][pixel].astype(np.float64) - b["point"])
+        e = self.emissivity(self.case.materials[b["material"]], angle_deg(normal @ to_target))
+        cosine = max(0.0, normal @ self.frame["sun"].astype(np.float64))
+        lit = float(self.case.background_sunlit[pixel])
+        sun = self.rows[records.SUN] / np.pi * lit * cosine
+        return e * planck(self.wavelength_um, float(b["mean_temperature_k"])) + sun * (1 - e), e
+
+    def pixel(self, pixel):
+        """Interaction, spectral radiance at the sensor, emissivity and background's (or None)."""
+        case, hit, b = self.case, self.case.hit[pixel], self.case.background[pixel]
+        ray, share = self.ray(pixel), float(b["shape_factor"])
+        if hit["facet"] == NONE:
+            return MISSED, self.sky(ray), None, None
+        material = case.materials[case.facets["material"][hit["facet"]]]
+        normal = hit["normal"].astype(np.float64)
+        kind = DIFFUSE
+        if material["specular_share"] == 1:
+            kind = SPECULAR_SKY if b["facet"] == NONE else SPECULAR_BACKGROUND
+        view = angle_deg(-normal @ ray)
+        e = self.emissivity(material, 0.0 if self.frame["thesis"] and kind == DIFFUSE else view)
+        sky = self.rows[records.SKY] if kind == DIFFUSE else self.sky(
+            ray - 2 * (normal @ ray) * normal)
+        behind, e_b = (0.0, None) if b["facet"] == NONE else self.background(pixel)
+        cosine = max(0.0, normal @ self.frame["sun"].astype(np.float64))
+        sun = self.rows[records.SUN] / np.pi * float(case.sunlit[pixel]) * cosine
+        leaving = (e * planck(self.wavelength_um, float(case.temperature_k[hit["facet"]]))
+                   + (sun + share * sky + (1 - share) * behind) * (1 - e))
+        zenith = (angle_deg(-ray[2]) - self.frame["path_zenith_first_deg"])
+        place = zenith / self.frame["path_zenith_step_deg"]
+        return kind, leaving * between(self.tau2, place) + between(self.path, place), e, e_b
+
+    def planes(self, pixel):
+        """Interaction, and radiance in band, emissivity and background's, each per band."""
+        kind, radiance, e, e_b = self.pixel(pixel)
+        in_band = []
+        for band in self.case.bands:
+            at = slice(band["first_sample"], band["first_sample"] + band["sample_count"])
+            w = self.rows[records.WEIGHT][at]
+            mean = lambda s: records.NO_VALUE if s is None else (w * s[at]).sum() / w.sum()
+            in_band.append(((w * radiance[at]).sum(), mean(e), mean(e_b)))
+        return kind, np.array(in_band)
+
+
+class Case:
+    """Random pixels of every kind. Half of the materials are specular, half have 91 angles."""
+
+    def __init__(self, seed, count, thesis):
+        self.random = np.random.default_rng(seed)
+        self.count = count
+        self.set_bands()
+        self.set_frame(thesis)
+        self.set_materials()
+        self.set_spectra()
+        self.set_pixels()
+
+    def set_bands(self):
+        edges = [(8.0, 14.0, 30), (0.5, 0.9, 11), (3.0, 5.0, 16)]
+        self.bands = np.zeros(len(edges), records.BAND)
+        self.wavelength_um, weight = [], []
+        for band, (low, high, used) in zip(self.bands, edges):
+            padded = (used + 15) // 16 * 16
+            width = np.diff(np.linspace(low, high, used + 1))
+            band["first_sample"], band["sample_count"] = len(weight), padded
+            band["width_um"] = high - low
+            self.wavelength_um += list(np.linspace(low, high, used)) + [high] * (padded - used)
+            weight += list(width) + [0.0] * (padded - used)
+        self.bands["gain"], self.bands["offset"] = [2.5, 1.0, 40.0], [-3.0, 0.0, 7.0]
+        self.bands["is_mean"] = [0, 1, 0]
+        self.wavelength_um, self.weight = np.array(self.wavelength_um), np.array(weight)
+
+    def set_frame(self, thesis):
+        self.frame = np.zeros(1, records.RADIOMETRY)
+        for name, value in dict(
+                columns=20, first_pixel=7, pixel_count=self.count, band_count=len(self.bands),
+                sample_count=len(self.weight), thesis=thesis, path_count=3,
+                path_zenith_first_deg=20, path_zenith_step_deg=20, zenith_count=7,
+                azimuth_count=13, zenith_step_deg=15, azimuth_step_deg=30,
+                sun=unit((0.5, -0.3, 0.7))).items():
+            self.frame[name] = value
+        self.camera = np.zeros(1, records.CAMERA)
+        self.camera["position"] = (10, -20, 1000)
+        self.camera["corner"], self.camera["across"] = (-1.0, 1.2, -0.9), (0.1, 0.01, 0.0)
+        self.camera["down"] = (0.0, -0.1, 0.02)
+
+    def set_materials(self):
+        self.materials = np.zeros(6, records.MATERIAL)
+        self.materials["specular_share"] = [0, 1, 0, 1, 0, 1]
+        self.materials["emissivity_angles"] = [91, 91, 1, 1, 91, 91]
+        rows = np.cumsum(self.materials["emissivity_angles"])
+        self.materials["emissivity_first"] = np.concatenate([[0], rows[:-1]])
+        self.materials["number"] = [3, 14, 15, 92, 65, 35]
+        self.facets = np.zeros(40, records.FACET)
+        self.facets["material"] = self.random.integers(0, 6, 40)
+        self.temperature_k = self.random.uniform(240, 340, 40).astype(np.float32)
+        table = []
+        for angles in self.materials["emissivity_angles"]:  # falls off towards grazing angles
+            at_normal = self.random.uniform(0.1, 1.0, len(self.weight))
+            angle = np.radians(np.arange(angles))[:, None]
+            table.append(at_normal * np.cos(angle) ** 0.3)
+        self.emissivity = np.concatenate(table).astype(np.float32)
+
+    def set_spectra(self):
+        f, n = self.frame[0], len(self.weight)
+        uniform = self.random.uniform
+        sky = uniform(0.5, 5, (f["zenith_count"], f["azimuth_count"], n))
+        sky[0] = sky[0, :1]  # the zenith has no azimuth
+        sky[:, -1] = sky[:, 0]
+        self.spectra = np.concatenate([
+            [self.weight, FIRST / self.wavelength_um**5, SECOND / self.wavelength_um,
+             uniform(0, 20, n), uniform(0.5, 5, n)],
+            uniform(0.3, 1, (f["path_count"], n)), uniform(0, 4, (f["path_count"], n)),
+            sky.reshape(-1, n)]).astype(np.float32)
+
+    def set_pixels(self):
+        n, random = self.count, self.random
+        self.hit, self.background = np.zeros(n, records.HIT), np.zeros(n, records.BACKGROUND)
+        self.hit["facet"] = random.integers(0, len(self.facets), n)
+        ray = np.array([Reference(self).ray(i) for i in range(n)])
+        normal = unit(random.normal(size=(n, 3)))
+        normal *= -np.sign((normal * ray).sum(1))[:, None]
+        self.hit["normal"], self.hit["range_m"] = normal, random.uniform(500, 2000, n)
+        self.hit["point"] = self.camera["position"] + self.hit["range_m"][:, None] * ray
+        specular = self.materials["specular_share"][self.facets["material"][self.hit["facet"]]] == 1
+        alone = random.random(n) < 0.4
+        self.hit["facet"][random.random(n) < 0.15] = NONE
+        b = self.background
+        b["facet"] = np.where(alone, NONE, random.integers(0, len(self.facets), n))
+        b["material"] = np.where(alone, NONE, random.integers(0, 6, n))
+        b["shape_factor"] = np.where(specular, alone, np.where(alone, 1, random.random(n)))
+        b["mean_temperature_k"] = np.where(alone, 0, random.uniform(240, 340, n))
+        b["point"] = self.hit["point"] + random.normal(size=(n, 3)) * 5
+        behind = unit(random.normal(size=(n, 3)))
+        towards = (behind * (self.hit["point"] - b["point"])).sum(1)
+        b["normal"] = behind * np.sign(towards)[:, None]
+        self.sunlit, self.background_sunlit = random.random((2, n)).astype(np.float32)

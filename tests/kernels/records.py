@@ -1,0 +1,38 @@
+"""Numpy twins of the records of kernels/records.h; test_records.py holds them to the device."""
+import numpy as np
+
+NONE = 0xFFFFFFFF
+NO_VALUE = -9999.0
+BAND_PLANES, TRUTH_PLANES = 5, 11
+BAND_TEMPERATURES, BAND_LOWEST_K, BAND_HIGHEST_K = 1024, 1.0, 20000.0
+WEIGHT, PLANCK_FIRST, PLANCK_SECOND, SUN, SKY, PATHS = range(6)  # SPECTRA_...
+MISSED, DIFFUSE, SPECULAR_SKY, SPECULAR_BACKGROUND = range(4)  # INTERACTION_...
+
+
+def record(text):
+    """A record of float32 and, with * before the name, uint32; [n] makes an array."""
+    fields = []
+    for field in text.split():
+        name, *counts = field.lstrip("*").replace("]", "").split("[")
+        fields.append((name, "u4" if field[0] == "*" else "f4", tuple(map(int, counts))))
+    return np.dtype(fields)
+
+
+BVH_NODE = record("low[3][8] high[3][8] *child[8] *order[8]")
+BVH_BLOCK = record("vertex[3][3][8] *facet[8]")
+HIT = record("point[3] range_m *facet normal[3]")
+FACET = record("normal[3] *material slope_rad azimuth_rad thickness_m power_w_m2"
+               " stated_temperature_k *two_sided *unused[2]")
+MATERIAL = record("density_kg_m3 specific_heat_j_kg_k conductivity_w_m_k solar_absorptance"
+                  " thermal_emissivity exposed_area specular_share *emissivity_first"
+                  " *emissivity_angles *number *unused[2]")
+FORCING = record("air_temperature_k sky_longwave_w_m2 convection_w_m2_k direct_w_m2 diffuse_w_m2"
+                 " sun[3] rain_w_m2_k rain_temperature_k unused[2]")
+WORLD = record("*ground_facet ground_z_m offset_m *cull_back")
+BACKGROUND = record("shape_factor mean_temperature_k *material *facet point[3] normal[3]"
+                    " *met_count *unused")
+CAMERA = record("position[3] corner[3] across[3] down[3]")
+RADIOMETRY = record("*columns *first_pixel *pixel_count *band_count *sample_count *thesis"
+                    " *path_count path_zenith_first_deg path_zenith_step_deg *zenith_count"
+                    " *azimuth_count zenith_step_deg azimuth_step_deg sun[3]")
+BAND = record("*first_sample *sample_count gain offset width_um *is_mean *unused[2]")
