@@ -149,7 +149,8 @@ static status run(const factor_request *request)
     ray_model *model = NULL;
     shape_factor_grid *grid = NULL;
     shape_factor_tables tables = {0};
-    device_memory hit_memory = NULL, out_memory = NULL;
+    shape_factor_points points = {.count = 1};
+    device_memory out_memory = NULL;
     background_record background;
     hit_record hit;
 
@@ -161,14 +162,16 @@ static status run(const factor_request *request)
                           request->azimuth_step_deg));
     TRY(open_tables(dev, ray_model_geometry(model)->facet_count, &tables));
     hit = make_hit(request, ray_model_geometry(model)->origin_m);
-    TRY(device_allocate(dev, &hit_memory, sizeof hit, &hit));
+    TRY(device_allocate(dev, &points.hit, sizeof hit, &hit));
+    TRY(device_allocate(dev, &points.met, shape_factor_cell_count(grid) * sizeof(uint32_t), NULL));
     TRY(device_allocate(dev, &out_memory, sizeof background, NULL));
-    TRY(shape_factor_run(grid, scene, &tables, 1, hit_memory, out_memory));
+    TRY(shape_factor_run(grid, scene, &tables, NULL, &points, out_memory));
     TRY(device_download(dev, out_memory, 0, sizeof background, &background));
     printf("%.6f\n", (double)background.shape_factor);
 out:
     device_release(out_memory);
-    device_release(hit_memory);
+    device_release(points.met);
+    device_release(points.hit);
     device_release(tables.material);
     device_release(tables.temperature_k);
     device_release(tables.facet);

@@ -255,7 +255,8 @@ const render_stage *render_stages(const render *r, size_t *out_count)
 /* What one tile holds on the device. */
 typedef struct tile {
     uint32_t first, count;
-    device_memory hit, lit, background, background_hit, background_lit;
+    shape_factor_points points;
+    device_memory lit, background, background_hit, background_lit;
     device_memory truth_planes, band_planes;
 } tile;
 
@@ -264,8 +265,10 @@ static status open_tile(tile *t, const render *r, uint32_t first, uint32_t count
     status rc = STATUS_OK;
     const size_t n = count;
 
-    *t = (tile){.first = first, .count = count};
-    TRY(device_allocate(r->dev, &t->hit, n * sizeof(hit_record), NULL));
+    *t = (tile){.first = first, .count = count, .points = {.count = count}};
+    TRY(device_allocate(r->dev, &t->points.hit, n * sizeof(hit_record), NULL));
+    TRY(device_allocate(r->dev, &t->points.met,
+                        n * shape_factor_cell_count(r->grid) * sizeof(uint32_t), NULL));
     TRY(device_allocate(r->dev, &t->lit, n * sizeof(float), NULL));
     TRY(device_allocate(r->dev, &t->background, n * sizeof(background_record), NULL));
     TRY(device_allocate(r->dev, &t->background_hit, n * sizeof(hit_record), NULL));
@@ -285,7 +288,8 @@ static void free_tile(tile *t)
     device_release(t->background_hit);
     device_release(t->background);
     device_release(t->lit);
-    device_release(t->hit);
+    device_release(t->points.met);
+    device_release(t->points.hit);
 }
 
 /* What the pixels see, what lights them, and what stands around them. */
@@ -296,12 +300,13 @@ static status trace_tile(const render *r, const tile *t)
     const device_memory nodes = ray_scene_nodes(r->rays), blocks = ray_scene_blocks(r->rays);
     const world_record world = ray_scene_world(r->rays);
 
-    TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count, t->hit));
-    TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->hit, t->lit));
-    TRY(shape_factor_run(r->grid, r->rays, &tables, t->count, t->hit, t->background));
+    TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count,
+                          t->points.hit));
+    TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->points.hit, t->lit));
+    TRY(shape_factor_run(r->grid, r->rays, &tables, NULL, &t->points, t->background));
     TRY(device_run(r->dev, "mirror", shape1(t->count), ARG(t->count), ARG(r->camera), ARG(world),
                    ARG(nodes), ARG(blocks), ARG(r->facets), ARG(r->temperature_k),
-                   ARG(r->materials), ARG(t->hit), ARG(t->background)));
+                   ARG(r->materials), ARG(t->points.hit), ARG(t->background)));
     TRY(device_run(r->dev, "background_hit", shape1(t->count), ARG(t->count), ARG(t->background),
                    ARG(t->background_hit)));
     TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->background_hit, t->background_lit));
@@ -317,10 +322,10 @@ static status colour_tile(const render *r, const tile *t)
     frame.first_pixel = t->first;
     frame.pixel_count = t->count;
     TRY(device_run(r->dev, "truth", shape1(t->count), ARG(frame), ARG(r->camera), ARG(r->facets),
-                   ARG(r->facet_ids), ARG(r->materials), ARG(r->temperature_k), ARG(t->hit),
+                   ARG(r->facet_ids), ARG(r->materials), ARG(r->temperature_k), ARG(t->points.hit),
                    ARG(t->background), ARG(t->lit), ARG(t->background_lit), ARG(t->truth_planes)));
     TRY(device_run(r->dev, "radiometry", shape1(t->count), ARG(frame), ARG(r->camera),
-                   ARG(r->facets), ARG(r->materials), ARG(r->temperature_k), ARG(t->hit),
+                   ARG(r->facets), ARG(r->materials), ARG(r->temperature_k), ARG(t->points.hit),
                    ARG(t->background), ARG(t->lit), ARG(t->background_lit), ARG(r->spectrum_rows),
                    ARG(r->emissivity_rows), ARG(r->band_records), ARG(r->ln_radiance),
                    ARG(t->band_planes)));

@@ -128,15 +128,35 @@ void shape_factor_free(shape_factor_grid *grid)
     free(grid);
 }
 
-status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
-                        const shape_factor_tables *tables, uint32_t count, device_memory hit,
-                        device_memory out_background)
+uint32_t shape_factor_cell_count(const shape_factor_grid *grid)
 {
+    return grid->cell_count;
+}
+
+device_memory shape_factor_cells(const shape_factor_grid *grid)
+{
+    return grid->cell;
+}
+
+status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
+                        const shape_factor_tables *tables, const float *sun,
+                        const shape_factor_points *points, device_memory out_background)
+{
+    status rc = STATUS_OK;
+    static const float nowhere[3];
+    const float *towards = sun ? sun : nowhere;
     const world_record world = ray_scene_world(scene);
     const device_memory nodes = ray_scene_nodes(scene), blocks = ray_scene_blocks(scene);
+    device *dev = ray_scene_device(scene);
 
-    return device_run(ray_scene_device(scene), "hemisphere", shape1(count), ARG(count),
-                      ARG(grid->cell_count), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
-                      ARG(tables->facet), ARG(tables->temperature_k), ARG(tables->material),
-                      ARG(hit), ARG(out_background));
+    TRY(device_run(dev, "hemisphere", shape2(points->count, grid->cell_count), ARG(points->count),
+                   ARG(grid->cell_count), ARG(towards[0]), ARG(towards[1]), ARG(towards[2]),
+                   ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell), ARG(points->hit),
+                   ARG(points->met)));
+    TRY(device_run(dev, "background", shape1(points->count), ARG(points->count),
+                   ARG(grid->cell_count), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
+                   ARG(tables->facet), ARG(tables->temperature_k), ARG(tables->material),
+                   ARG(points->hit), ARG(points->met), ARG(out_background)));
+out:
+    return rc;
 }

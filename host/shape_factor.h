@@ -36,14 +36,27 @@ typedef struct shape_factor_tables {
     device_memory material;      /* material_record */
 } shape_factor_tables;
 
-/* Samples the hemisphere above every point. A ray that leaves the
+/* What one run over points works with. */
+typedef struct shape_factor_points {
+    uint32_t count;
+    device_memory hit; /* hit_record, shape (count); only point, facet and normal are read */
+    device_memory met; /* uint32, shape (shape_factor_cell_count, count): written, hemisphere.cl */
+} shape_factor_points;
+
+/* Samples the hemisphere above every point; both sides of a facet are seen. A ray that leaves the
  * scene sees the sky, or the ground plane if that is there and the ray goes down.
- *   hit              hit_record, shape (count); only point, facet and normal are read
+ *   sun              unit vector towards the sun: facets met are marked where it reaches them; NULL:
+ *                    nobody asks
  *   out_background   background_record, shape (count). Points without a facet get factor 1 and no
  *                    background. Of equally common materials the lowest number is taken; at most
  *                    256 materials are counted at a point */
 status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
-                        const shape_factor_tables *tables, uint32_t count, device_memory hit,
-                        device_memory out_background);
+                        const shape_factor_tables *tables, const float *sun,
+                        const shape_factor_points *points, device_memory out_background);
+
+uint32_t shape_factor_cell_count(const shape_factor_grid *grid);
+
+/* The grid on the device: float, shape (cell_count, 4), see hemisphere.cl. */
+device_memory shape_factor_cells(const shape_factor_grid *grid);
 
 #endif

@@ -2,10 +2,14 @@
 #ifndef HEMISPHERE_H
 #define HEMISPHERE_H
 
+#include "ray.h"
 #include "records.h"
 
 /* Materials that are counted at one point. */
 #define HEMISPHERE_MATERIALS 256
+
+/* Set in the word of a ray that met a facet where the sun reaches it. */
+#define HEMISPHERE_LIT 0x80000000u
 
 /* Below this horizontal part of its normal a facet counts as level. */
 #define HEMISPHERE_LEVEL 1e-4f
@@ -39,6 +43,24 @@ static inline void hemisphere_direction(const hemisphere_frame *f, const float i
     for (int k = 0; k < 3; k++)
         out[k] =
             (in_frame[0] * f->upslope[k] + in_frame[1] * f->across[k]) + in_frame[2] * f->normal[k];
+}
+
+/* Casts ray `c` of the hemisphere above a point; what leaves the geometry going down meets the ground
+ * plane if there is one.
+ *   cell   (cell_count, 4): direction along upslope, across and normal, weight */
+static inline hit_record hemisphere_cast(const hemisphere_frame *frame, const hit_record *at,
+                                         global const float *cell, const uint c,
+                                         const world_record *world, global const bvh_node *nodes,
+                                         global const bvh_block *blocks)
+{
+    float in_frame[4], direction[3];
+
+    vstore4(vload4(c, cell), 0, in_frame);
+    hemisphere_direction(frame, in_frame, direction);
+    const ray r = ray_leaving(world, at->point, at->normal, direction);
+    hit_record record = ray_record(blocks, &r, ray_closest(nodes, blocks, &r));
+    if (record.facet == RECORD_NONE) ray_meet_ground(world, &r, &record);
+    return record;
 }
 
 /* What was met above one point: each material once, with its rays and the first of them. */

@@ -60,17 +60,33 @@ class RayWorld:
         arguments = (*np.float32(sun), self.world[0], self.nodes, self.blocks, self.copy(hits))
         return self.run("sunlight", len(hits), arguments, np.float32, **how)[0]
 
-    def hemisphere(self, cells, hits, material=None, temperature_k=None, number=None, **how):
+    def hemisphere(self, cells, hits, material=None, temperature_k=None, number=None,
+                   sun=(0, 0, 0), **how):
         """material, temperature_k: per facet, the ground's last; number: per material."""
+        cell_count, count = len(cells), len(hits)
         facets = np.zeros(self.facet_count + 1, FACET)
         facets["material"] = 0 if material is None else material
         temperature = np.zeros(len(facets), np.float32)
         temperature[:] = 300 if temperature_k is None else temperature_k
         materials = np.zeros(facets["material"].max() + 1, MATERIAL)
         materials["number"] = np.arange(len(materials)) if number is None else number
-        tables = [self.copy(a) for a in (cells, facets, temperature, materials, hits)]
-        arguments = (np.uint32(len(cells)), self.world[0], self.nodes, self.blocks, *tables)
-        return self.run("hemisphere", len(hits), arguments, BACKGROUND, **how)[0]
+        cells, facets, temperature, materials, hits = (
+            self.copy(a) for a in (cells, facets, temperature, materials, hits))
+        met = self.cast(cell_count, cells, count, hits, sun, **how)
+        rays = (np.uint32(cell_count), self.world[0], self.nodes, self.blocks)
+        arguments = (*rays, cells, facets, temperature, materials, hits, self.copy(met))
+        return self.run("background", count, arguments, BACKGROUND, **how)[0]
+
+    def cast(self, cell_count, cells, count, hits, sun, local=64, options=""):
+        """The words of hemisphere.cl, shape (cell_count, count)."""
+        met = np.empty((cell_count, count), np.uint32)
+        memory = cl.Buffer(self.opencl.context, cl.mem_flags.WRITE_ONLY, met.nbytes)
+        size = ((count + local - 1) // local * local, cell_count)
+        kernel = self.opencl.build("hemisphere", options)
+        kernel(self.opencl.queue, size, (local, 1), np.uint32(count), np.uint32(cell_count),
+               *np.float32(sun), self.world[0], self.nodes, self.blocks, cells, hits, memory)
+        cl.enqueue_copy(self.opencl.queue, met, memory)
+        return met
 
 
 def points(position, normal):
