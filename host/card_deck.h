@@ -34,7 +34,10 @@ typedef struct card_deck {
  * asks for further cards: MODEL 0 or 7, IHAZE 7, ICLD 18 to 20, IVSA 1, IRPT not 0. */
 status card_deck_read(card_deck *out, const char *path);
 
-/* Writes the deck in the manual's columns. */
+/* The deck in the manual's columns; the caller frees it. */
+status card_deck_text(char **out, const card_deck *deck);
+
+/* Writes the same. */
 status card_deck_write(const card_deck *deck, const char *path);
 
 #endif

@@ -1,0 +1,105 @@
+#define _GNU_SOURCE /* sched_getaffinity */
+
+#include "lowtran.h"
+
+#include "lowtran_process.h"
+
+#include <errno.h>
+#include <sched.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { WORKER_LIMIT = 64 };
+
+typedef struct crew {
+    char folder[1024];
+    int count;
+    lowtran_process *process[WORKER_LIMIT];
+    size_t deck[WORKER_LIMIT]; /* that the process runs */
+} crew;
+
+static volatile sig_atomic_t interrupted;
+
+void lowtran_interrupt(int signal_number)
+{
+    interrupted = signal_number;
+}
+
+static int processor_count(void)
+{
+    cpu_set_t set;
+    const int count = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+
+    return count < WORKER_LIMIT ? count : WORKER_LIMIT;
+}
+
+static status crew_open(crew *c, size_t decks)
+{
+    status rc = STATUS_OK;
+    const char *folder = getenv("TMPDIR");
+    const int processors = processor_count();
+
+    snprintf(c->folder, sizeof c->folder, "%s/radsig-atmosphere.XXXXXX",
+             folder && *folder ? folder : "/tmp");
+    if (!mkdtemp(c->folder)) {
+        rc = status_set(STATUS_FILE, "%s: %s", c->folder, strerror(errno));
+        c->folder[0] = '\0';
+        goto out;
+    }
+    while (c->count < processors && (size_t)c->count < decks) {
+        TRY(lowtran_process_open(&c->process[c->count], c->folder, c->count));
+        c->count++;
+    }
+out:
+    return rc;
+}
+
+static void crew_free(crew *c)
+{
+    for (int i = 0; i < c->count; i++) lowtran_process_free(c->process[i]);
+    if (*c->folder) rmdir(c->folder);
+}
+
+/* Waits for a child; returns its worker, or -1 after a failure. */
+static int wait_for_one(const crew *c, int *out_status)
+{
+    const pid_t child = interrupted ? -1 : waitpid(-1, out_status, 0);
+
+    for (int i = 0; child > 0 && i < c->count; i++)
+        if (lowtran_process_id(c->process[i]) == child) return i;
+    return -1;
+}
+
+status lowtran_run_decks(const char *const *decks, const char *const *names, size_t count,
+                         lowtran_taker take, void *receiver)
+{
+    status rc = STATUS_OK;
+    crew c = {0};
+    lowtran_run run;
+    size_t next = 0, ended = 0;
+    int wait_status;
+
+    TRY(crew_open(&c, count));
+    for (; next < (size_t)c.count; next++) {
+        c.deck[next] = next;
+        TRY(lowtran_process_start(c.process[next], decks[next]));
+    }
+    for (; ended < count; ended++) {
+        const int worker = wait_for_one(&c, &wait_status);
+        NEED(worker >= 0, STATUS_INTERRUPTED, "interrupted after %zu of %zu runs", ended, count);
+        const size_t deck = c.deck[worker];
+        TRY(lowtran_process_finish(c.process[worker], wait_status, names[deck], &run));
+        TRY(take(receiver, deck, &run));
+        if (next == count) continue;
+        c.deck[worker] = next;
+        TRY(lowtran_process_start(c.process[worker], decks[next]));
+        next++;
+    }
+out:
+    crew_free(&c);
+    return rc;
+}

@@ -1,0 +1,32 @@
+/* Tool: the commands of radsig-atmosphere. argv[0] is the command's name. Each returns the exit
+ * code: 0 done, 1 failed, 2 wrong usage, 130 interrupted. Only these files print. */
+#ifndef TOOL_H
+#define TOOL_H
+
+#include "status.h"
+
+#include <getopt.h>
+#include <stddef.h>
+
+int tool_deck(int argc, char **argv);
+
+enum { TOOL_USAGE = 2, TOOL_INTERRUPTED = 130, TOOL_HELP = -1 };
+
+/* What stands on a command line beside its arguments. */
+typedef struct tool_options {
+    const char *output;     /* -o; NULL: not stated */
+    const char *keep_decks; /* --keep-decks; NULL: not stated */
+    int first, count;       /* of the arguments in argv */
+} tool_options;
+
+/* Reads options. Returns 0, TOOL_HELP, or TOOL_USAGE after it has said what is wrong.
+ *   keeps   the command knows --keep-decks */
+int tool_read(int argc, char **argv, int keeps, tool_options *out);
+
+/* Prints what was warned about and, unless rc is STATUS_OK, the failure; returns the exit code. */
+int tool_end(const char *command, status rc);
+
+/* Prints what is wrong with the usage; returns TOOL_USAGE. */
+__attribute__((format(printf, 2, 3))) int tool_misuse(const char *command, const char *format, ...);
+
+#endif

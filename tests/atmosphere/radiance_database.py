@@ -1,0 +1,39 @@
+"""Reads a .rad of any number of paths and directions, in its own units."""
+
+import numpy
+
+
+def read(path):
+    lines = [line for line in open(path) if not line.startswith("#")]
+    rows = iter([[float(word) for word in line.split()] for line in lines])
+    take = lambda count: numpy.array([next(rows) for _ in range(count)])
+    names = ["altitude", "wavelength_min", "wavelength_max", "wavenumber_min", "wavenumber_max", "step", "n",
+             "zenith_min", "zenith_max", "zenith_step", "zenith_meaningful", "m"]
+    out = {name: next(rows)[0] for name in names}
+    n, m = int(out["n"]), int(out["m"])
+    out["wavelength"], out["wavenumber"], out["sun"], out["tau1"] = take(n).T
+    out["zenith"], out["range"], out["path"] = [], [], []
+    for _ in range(m):
+        zenith, distance = next(rows)
+        out["zenith"].append(zenith)
+        out["range"].append(distance)
+        out["path"].append(take(n))
+    out["path"] = numpy.array(out["path"])
+    out["sky"], out["integrated"] = {}, None
+    head = next(rows)
+    while len(head) == 2:
+        if 0 < head[0] < 0.1 or (head[0] == 0 and 0 < head[1] < 0.1):
+            out["integrated"] = numpy.array([head, *take(n - 1)])
+        else:
+            out["sky"][tuple(head)] = take(n)
+        head = next(rows)
+    out["profile"] = take(int(head[0]))
+    assert next(rows, None) is None
+    return out
+
+
+def sky_array(database):
+    """Shape (zenith, azimuth, n, 2)."""
+    zeniths = sorted({key[0] for key in database["sky"]})
+    azimuths = sorted({key[1] for key in database["sky"]})
+    return numpy.array([[database["sky"][z, a] for a in azimuths] for z in zeniths])

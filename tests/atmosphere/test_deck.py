@@ -1,0 +1,99 @@
+"""radsig-atmosphere deck: LOWTRAN 7 as a deck stands."""
+
+import itertools
+import pathlib
+import subprocess
+
+import numpy
+import printed
+import pytest
+import radiance_database
+
+ROOT = pathlib.Path(__file__).parents[2]
+
+# A path down from 4 km through maritime haze on a winter afternoon; printed nowhere.
+UNPRINTED = """    3    2    2    1    0    0    0    0    0    0    0    0    1  -1.000   0.25
+    4    0    0    1    0    0    12.000     0.000     0.000     0.000     0.200
+     4.000     0.200   130.000     0.000     0.000     0.000    0
+    2    2   20    0
+    55.000    62.000     0.000     0.000     0.000     0.000     0.000     0.000
+  2000.000  2600.000    20.000
+    0
+"""
+
+
+def run_deck(atmosphere, folder, *decks):
+    paths = []
+    for i, text in enumerate(decks):
+        paths.append(folder / f"{i}.cdk")
+        paths[-1].write_text(text)
+    atmosphere("deck", *paths, "-o", folder / "out.rad")
+    return radiance_database.read(folder / "out.rad")
+
+
+@pytest.mark.parametrize("direction", printed.SKY)
+def test_the_printed_deck_gives_the_printed_directional_sky(atmosphere, tmp_path, direction):
+    result = run_deck(atmosphere, tmp_path, printed.deck(*direction))
+
+    # 1e-5: seven digits are printed, float32 sums differ in the sixth
+    assert result["sky"][direction] == pytest.approx(numpy.array(printed.SKY[direction]), rel=1e-5)
+
+
+def test_the_printed_decks_of_all_directions_give_the_printed_integrated_sky(atmosphere, tmp_path):
+    directions = itertools.product(range(0, 91, 15), range(0, 361, 30))
+    result = run_deck(atmosphere, tmp_path, *(printed.deck(z, a) for z, a in directions))
+
+    assert len(result["sky"]) == 91
+    assert result["integrated"][-2:] == pytest.approx(numpy.array(printed.INTEGRATED), rel=1e-5)
+
+
+def test_a_deck_agrees_with_a_run_of_lowtran_by_hand(atmosphere, tmp_path):
+    result = run_deck(atmosphere, tmp_path, UNPRINTED)
+    source = pathlib.Path(__file__).with_name("by_hand.f90")
+    subprocess.run(["gfortran", "-O2", "-o", tmp_path / "by_hand", source, ROOT / "build/lowtran/lowtran7.o"], check=True)
+    (tmp_path / "TAPE5").write_text(UNPRINTED)
+    (tmp_path / "out").mkdir()
+    for name in ("TAPE6", "TAPE7", "TAPE8"):
+        (tmp_path / "out" / name).touch()
+    said = subprocess.run(["./by_hand"], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+    by_hand = numpy.array([[float(x) for x in line.split()] for line in said.splitlines()])[::-1]
+
+    assert result["wavenumber"] == pytest.approx(by_hand[:, 0])
+    assert result["path"][0] == pytest.approx(by_hand[:, 1:], rel=1e-6)  # seven digits are written
+    assert result["range"][0] == pytest.approx(3.8 / numpy.cos(numpy.radians(50)), rel=1e-2)  # flat earth
+
+
+def test_a_deck_spaced_freely_and_one_in_columns_are_the_same(atmosphere, tmp_path):
+    first = run_deck(atmosphere, tmp_path, UNPRINTED)
+    second = run_deck(atmosphere, tmp_path, "\n".join(" ".join(line.split()) for line in UNPRINTED.splitlines()))
+
+    assert (first["path"] == second["path"]).all()
+
+
+@pytest.mark.parametrize("old, new, expected", [
+    ("  -1.000   0.25", "  -1.000   1.25", "0.cdk:1:"),
+    ("    2    2   20    0", "    2    2  banana", "0.cdk:4:"),
+    ("  2600.000", "  1600.000", "V1 below V2"),
+    ("    0\n", "    1\n", "IRPT"),
+    ("130.000", " 80.000", "LOWTRAN"),  # looks up, away from H2 below
+])
+def test_a_broken_deck_is_explained(atmosphere, tmp_path, old, new, expected):
+    path = tmp_path / "0.cdk"
+    path.write_text(new.join(UNPRINTED.rsplit(old, 1)))
+    done = atmosphere("deck", path, "-o", tmp_path / "out.rad", code=1)
+
+    assert expected in done.stderr
+    assert not (tmp_path / "out.rad").exists()
+
+
+def test_a_deck_that_ends_early_is_explained(atmosphere, tmp_path):
+    path = tmp_path / "0.cdk"
+    path.write_text("\n".join(UNPRINTED.splitlines()[:4]))
+    done = atmosphere("deck", path, "-o", tmp_path / "out.rad", code=1)
+
+    assert "0.cdk" in done.stderr
+
+
+def test_wrong_usage_exits_with_2(atmosphere, tmp_path):
+    for arguments in (["deck"], ["deck", "x.cdk"], ["deck", "x.cdk", "--frobnicate"], ["frobnicate"], []):
+        atmosphere(*arguments, code=2)
