@@ -60,8 +60,6 @@ static status open_rays(render *r)
     TRY(ray_scene_open(&r->rays, r->dev, tree));
     if (s->ground_material != RECORD_NONE)
         ray_scene_set_ground(r->rays, g->facet_count, (float)(s->ground_z_m - g->origin_m[2]));
-    TRY(shape_factor_open(&r->grid, r->dev, s->thesis ? SHAPE_FACTOR_THESIS : SHAPE_FACTOR_COSINE,
-                          s->hemisphere_zenith_step_deg, s->hemisphere_azimuth_step_deg));
     end_stage(r, "tree");
 out:
     bvh_free(tree);
@@ -179,13 +177,8 @@ static void set_frame(render *r)
 {
     const scene *s = r->s;
     const atmosphere *air = s->air;
-    const sun_position sun = sun_at(s->place.time_s, s->place.latitude_deg, s->place.longitude_deg);
-    double direction[3];
 
-    sun_direction(sun, direction);
-    r->camera = view_camera(&s->camera, s->shape->origin_m);
     r->frame = (radiometry_record){
-        .columns = (uint32_t)s->camera.columns,
         .band_count = s->band_count,
         .sample_count = r->bands->sample_count,
         .thesis = s->thesis,
@@ -196,13 +189,39 @@ static void set_frame(render *r)
         .azimuth_count = (uint32_t)air->azimuth_count,
         .zenith_step_deg = (float)air->zenith_step_deg,
         .azimuth_step_deg = (float)air->azimuth_step_deg,
-        .sun = {(float)direction[0], (float)direction[1], (float)direction[2]},
     };
+}
+
+render_look render_stated_look(const scene *s)
+{
+    return (render_look){s->camera, s->place.time_s, s->hemisphere_zenith_step_deg,
+                         s->hemisphere_azimuth_step_deg};
+}
+
+status render_change_look(render *r, const render_look *look)
+{
+    status rc = STATUS_OK;
+    const scene *s = r->s;
+    const sun_position sun = sun_at(look->time_s, s->place.latitude_deg, s->place.longitude_deg);
+    shape_factor_grid *grid = NULL;
+    double direction[3];
+
+    TRY(shape_factor_open(&grid, r->dev, s->thesis ? SHAPE_FACTOR_THESIS : SHAPE_FACTOR_COSINE,
+                          look->hemisphere_zenith_step_deg, look->hemisphere_azimuth_step_deg));
+    shape_factor_free(r->grid);
+    r->grid = grid;
+    sun_direction(sun, direction);
+    for (int i = 0; i < 3; i++) r->frame.sun[i] = (float)direction[i];
+    r->camera = view_camera(&look->camera, s->shape->origin_m);
+    r->frame.columns = (uint32_t)look->camera.columns;
+out:
+    return rc;
 }
 
 status render_open(render **out, const scene *s, device *dev)
 {
     status rc = STATUS_OK;
+    const render_look look = render_stated_look(s);
     render *r = calloc(1, sizeof *r);
 
     NEED(r, STATUS_MEMORY, "no memory for a render");
@@ -214,6 +233,7 @@ status render_open(render **out, const scene *s, device *dev)
     TRY(set_temperatures(r));
     TRY(open_spectra(r));
     set_frame(r);
+    TRY(render_change_look(r, &look));
     TRY(render_plane_list(&r->planes, &r->plane_count, s, r->bands->centre_um, r->bands->width_um));
     *out = r;
     r = NULL;

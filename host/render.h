@@ -2,6 +2,7 @@
  * tree, temperatures, spectra once; camera, sun, hemisphere, radiometry per tile. Thesis 2.5.5.
  *
  *   render_open(&r, scene, device);
+ *   render_change_look(r, &look);  where it differs from what the scene says
  *   while (more) render_tile(r, first, count, values);
  *   render_free(r); */
 #ifndef RENDER_H
@@ -25,6 +26,19 @@ const render_plane *render_planes(const render *r, size_t *out_count);
  *   values   shape (plane count): the whole plane, shape (rows, columns), or NULL: not wanted
  * Fails with STATUS_MEMORY where the device has no room for the tile: try a smaller one. */
 status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float *const *values);
+
+/* How to look at the scene, where that differs from what the scene says. */
+typedef struct render_look {
+    view camera;
+    double time_s; /* of the sun; UTC, since 1970 */
+    double hemisphere_zenith_step_deg, hemisphere_azimuth_step_deg;
+} render_look;
+
+/* What the scene says. */
+render_look render_stated_look(const scene *s);
+
+/* Looks in another way from the next tile on. Temperatures stay those of the scene's time. */
+status render_change_look(render *r, const render_look *look);
 
 /* Seconds of the stages before the first tile, on the host. */
 typedef struct render_stage {
