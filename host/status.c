@@ -50,6 +50,7 @@ void status_warn(const char *format, ...)
     const size_t length = strlen(text);
     va_list arguments;
 
+    if (length + 2 >= sizeof warnings[0]) return;
     va_start(arguments, format);
     vsnprintf(text + length, sizeof warnings[0] - length - 1, format, arguments);
     va_end(arguments);

@@ -25,7 +25,8 @@ status status_keep(status code);
 /* Forgets the message and what was kept. */
 void status_clear(void);
 
-/* Adds a line to the warnings of this thread; for input that is odd but usable. */
+/* Adds a line to the warnings of this thread; for input that is odd but usable. What no longer fits
+ * into 64 KiB is dropped. */
 __attribute__((format(printf, 1, 2))) void status_warn(const char *format, ...);
 
 /* The warnings since the last call, a line each, and forgets them; valid until the next call. */
