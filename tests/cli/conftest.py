@@ -60,12 +60,12 @@ def toml_text(scene):
     """The scene as a file: single values first, then tables, then arrays of tables."""
     lines = []
     for key, value in sorted(scene.items(), key=lambda item: isinstance(item[1], (dict, list))):
-        tables = value if isinstance(value, list) else [value] if isinstance(value, dict) else []
-        for table in tables:
+        if not isinstance(value, (dict, list)):
+            lines.append(f"{key} = {toml_value(value, key)}")
+            continue
+        for table in value if isinstance(value, list) else [value]:
             lines.append(f"[[{key}]]" if isinstance(value, list) else f"[{key}]")
             lines += [f"{k} = {toml_value(v, k)}" for k, v in table.items()]
-        if not tables:
-            lines.append(f"{key} = {toml_value(value, key)}")
     return "\n".join(lines) + "\n"
 
 
@@ -180,7 +180,7 @@ class Database:
                 + (1 - u) * v * d[i, k + 1] + u * v * d[i + 1, k + 1])
 
 
-def pixel_directions(position_m, target_m, focal_length_mm, columns, rows):
+def pixel_directions(position_m, target_m, focal_length_mm, pixels):
     """Unit directions of the pixels, shape (rows, columns, 3): pinhole, 36 mm across the columns,
     up in the picture is up in the world, or north where the camera looks straight down."""
     sight = np.subtract(target_m, position_m).astype(float)
@@ -189,6 +189,7 @@ def pixel_directions(position_m, target_m, focal_length_mm, columns, rows):
     right = np.cross(sight, [0, 0, 1] if level else [0, 1, 0])
     right /= np.linalg.norm(right)
     up = np.cross(right, sight)
+    columns, rows = pixels
     pixel = 36 / focal_length_mm / columns
     across = (np.arange(columns) + 0.5 - columns / 2) * pixel
     upward = (rows / 2 - np.arange(rows) - 0.5) * pixel

@@ -86,9 +86,7 @@ def test_the_truth_of_an_open_plane_is_what_was_stated(black):
 
 
 def test_range_and_view_angle_follow_from_the_camera(black, program, radiance):
-    camera = program.scene["camera"]
-    direction = radiance.pixel_directions(camera["position_m"], camera["target_m"],
-                                          camera["focal_length_mm"], *camera["pixels"])
+    direction = radiance.pixel_directions(**program.scene["camera"])
 
     assert black(300.0)["range_m"] == pytest.approx(-60 / direction[..., 2], rel=1e-5)
     assert black(300.0)["view_angle_deg"] == pytest.approx(
