@@ -221,13 +221,13 @@ static void a_failed_build_shows_its_log_with_file_and_line(void **state)
     const uint count = 1;
 
     (void)state;
-    added_option = "-Dget_global_id=nothing_like_it.x";
+    added_option = "-Dtowards=7";
     const status rc = device_run(dev, "mirror", shape1(1), ARG(count));
     added_option = "";
     assert_int_equal(rc, STATUS_DEVICE);
     assert_non_null(strstr(status_message(), "kernel mirror does not build on "));
     assert_non_null(strstr(status_message(), "CL_BUILD_PROGRAM_FAILURE"));
-    assert_non_null(strstr(status_message(), "nothing_like_it"));
+    assert_non_null(strstr(status_message(), "error: "));
     assert_non_null(strstr(status_message(), "kernels/mirror.cl:"));
 }
 
