@@ -4,6 +4,7 @@
 #include "render_output.h"
 
 #include <getopt.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,6 +48,7 @@ static bool add_size(command_settings *settings, const char *text)
     unsigned columns, rows;
     char end, value[64];
 
+    if (strspn(text, "0123456789x") != strlen(text)) return false;
     if (sscanf(text, "%ux%u%c", &columns, &rows, &end) != 2) return false;
     snprintf(value, sizeof value, "[%u, %u]", columns, rows);
     return command_settings_add(settings, "camera.pixels", value);
@@ -74,7 +76,7 @@ static bool take_option(arguments *a, int option, const char *value)
     case 'S':
         return strchr(value, '=') && command_settings_add(&a->settings, "", value);
     case 'd':
-        return command_number(value, 0.0, 63.0, &a->device);
+        return command_number(value, 0.0, 63.0, &a->device) && a->device == floor(a->device);
     default:
         a->output.wants_exr = true;
         return true;
@@ -93,21 +95,34 @@ static const struct option options[] = {{"output", required_argument, NULL, 'o'}
                                         {"help", no_argument, NULL, 'h'},
                                         {NULL, 0, NULL, 0}};
 
+static const char *option_name(int option)
+{
+    const struct option *o = options;
+
+    while (o->val != option) o++;
+    return o->name;
+}
+
 /* Returns -1 to go on, or the exit code. */
 static int take_arguments(arguments *a, int argc, char **argv)
 {
-    int option, index = 0;
+    bool given[128] = {false};
+    int option;
 
     opterr = 0;
-    while ((option = getopt_long(argc, argv, ":o:", options, &index)) != -1) {
+    while ((option = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
         if (option == 'h') {
             fputs(help, stdout);
             return 0;
         }
         if (option == '?') return command_misuse("render", "unknown option '%s'", argv[optind - 1]);
         if (option == ':') return command_misuse("render", "%s needs a value", argv[optind - 1]);
+        if (given[option] && option != 'S')
+            return command_misuse("render", "--%s is given twice", option_name(option));
         if (!take_option(a, option, optarg))
-            return command_misuse("render", "'%s' is no value for %s", optarg, argv[optind - 2]);
+            return command_misuse("render", "'%s' is no value for --%s", optarg,
+                                  option_name(option));
+        given[option] = true;
     }
     if (optind + 1 != argc)
         return command_misuse("render", argc > optind ? "one scene at a time" : "needs a scene");

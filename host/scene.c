@@ -134,6 +134,23 @@ static void check_weather(scene_reader *reader)
         scene_fail(reader, NULL, "[weather]: the table is missing, thermal = \"therm\" needs it");
 }
 
+/* A band that was read must lie within the atmosphere. */
+static void check_bands(scene_reader *reader)
+{
+    const scene *s = reader->s;
+    const toml_node *list = toml_node_get(reader->root, "band");
+
+    for (uint32_t i = 0; s->air && i < s->band_count; i++) {
+        const band *b = &s->bands[i];
+        const size_t kept = strlen(status_message());
+        band_samples samples = {0};
+        if (!b->response && !(b->low_um > 0.0 && b->low_um < b->high_um)) continue;
+        if (band_sample(&samples, b, s->air, s->thesis) != STATUS_OK)
+            scene_fail(reader, toml_node_at(list, i), "%s", status_message() + kept);
+        band_samples_free(&samples);
+    }
+}
+
 static void read_parts(scene_reader *reader)
 {
     const char *ground_material = NULL;
@@ -147,6 +164,7 @@ static void read_parts(scene_reader *reader)
     scene_read_bands(reader);
     scene_read_render(reader);
     scene_read_atmosphere(reader);
+    check_bands(reader);
     if (placed) scene_read_weather(reader);
     scene_read_geometry(reader);
     scene_read_materials(reader, ground_material);

@@ -1,0 +1,99 @@
+"""The command line as a whole: help, version, wrong usage. DESIGN.md: exit 2 is wrong usage."""
+import re
+
+import pytest
+
+COMMANDS = ["render", "check", "trace", "shape-factor", "thermal", "sun", "view", "devices"]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_of_a_command_goes_to_stdout(program, command):
+    done = program.run(command, "--help")
+
+    assert done.returncode == 0 and done.stderr == ""
+    assert done.stdout.startswith(f"usage: radsig {command}")
+
+
+def test_help_lists_every_command(program):
+    done = program.run("--help")
+
+    assert done.returncode == 0 and done.stderr == ""
+    for command in COMMANDS:
+        assert re.search(rf"^  {command} ", done.stdout, re.M)
+
+
+def test_the_version_is_the_makefile_s(program):
+    version = re.search(r"^VERSION := (.*)$", (program.root / "Makefile").read_text(), re.M).group(1)
+
+    done = program.run("--version")
+
+    assert done.returncode == 0 and done.stdout == f"radsig {version}\n"
+
+
+@pytest.mark.parametrize("arguments", [[], ["no-such-command"], ["--no-such-option"], ["-x"], [""]])
+def test_wrong_usage_of_the_program_ends_with_2(program, arguments):
+    done = program.run(*arguments)
+
+    assert done.returncode == 2 and done.stdout == "" and "radsig" in done.stderr
+
+
+@pytest.mark.parametrize("command", [each for each in COMMANDS if each != "view"])
+def test_an_unknown_option_ends_with_2_and_names_it(program, command):
+    done = program.run(command, "--no-such-option")
+
+    assert done.returncode == 2 and done.stdout == ""
+    assert "--no-such-option" in done.stderr
+
+
+@pytest.mark.parametrize("command", ["render", "check", "view"])
+def test_a_command_without_its_scene_ends_with_2(program, command):
+    assert program.run(command).returncode == 2
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (["scene.toml"], "-o DIR"),
+    (["-o", "out"], "needs a scene"),
+    (["a.toml", "b.toml", "-o", "out"], "one scene"),
+    (["scene.toml", "-o"], "-o needs a value"),
+    (["scene.toml", "-o", ""], "''"),
+    (["scene.toml", "-o", "out", "--size", "32"], "'32'"),
+    (["scene.toml", "-o", "out", "--size", "32x32x32"], "'32x32x32'"),
+    (["scene.toml", "-o", "out", "--size", "-3x32"], "'-3x32'"),
+    (["scene.toml", "-o", "out", "--size=3*2"], "'3*2' is no value for --size"),
+    (["scene.toml", "-o", "out", "--set", "camera.twist_deg"], "'camera.twist_deg'"),
+    (["scene.toml", "-o", "out", "--device", "x"], "'x'"),
+    (["scene.toml", "-o", "out", "--device", "-1"], "'-1'"),
+    (["scene.toml", "-o", "out", "--device", "0.5"], "'0.5'"),
+    (["scene.toml", "-o", "out", "--bands", ""], "''"),
+    (["scene.toml", "-o", "a", "-o", "b"], "--output is given twice"),
+    (["scene.toml", "-o", "out", "--size", "3x3", "--size", "4x4"], "--size is given twice"),
+])
+def test_wrong_usage_of_render_ends_with_2_and_says_what(program, tmp_path, arguments, words):
+    program.write_scene(tmp_path)
+
+    done = program.run("render", *arguments, cwd=tmp_path)
+
+    assert done.returncode == 2 and done.stdout == ""
+    assert words in done.stderr and "radsig render --help" in done.stderr
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["plane.obj", "scene.toml"]
+
+
+@pytest.mark.parametrize("arguments", [["a.toml", "b.toml"], ["a.toml", "--set"],
+                                       ["a.toml", "--set", "x"], ["a.toml", "-o", "out"]])
+def test_wrong_usage_of_check_ends_with_2(program, arguments):
+    done = program.run("check", *arguments)
+
+    assert done.returncode == 2 and done.stdout == "" and "radsig check --help" in done.stderr
+
+
+@pytest.mark.parametrize("option, value, words", [
+    ("--mode", "fast", '"exact" or "thesis"'), ("--time", "1992-06-21T13:20:00", "with offset"),
+    ("--size", "0x32", "from 1 to"), ("--bands", "mwir", "no band 'mwir'"),
+    ("--planes", "depth", "no plane 'depth'"), ("--set", "camera.lens=3", "unknown key"),
+])
+def test_a_value_that_the_scene_refuses_ends_with_1_and_leaves_nothing(program, tmp_path, option,
+                                                                        value, words):
+    done = program.run("render", program.write_scene(tmp_path), "-o", tmp_path / "out", option, value)
+
+    assert done.returncode == 1 and words in done.stderr
+    assert not (tmp_path / "out").exists()
