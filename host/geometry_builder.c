@@ -11,8 +11,7 @@ struct geometry_builder {
     geometry *g;
     double (*position)[3]; /* shape (vertex_capacity) */
     uint32_t vertex_capacity, facet_capacity, face_count;
-    const char *path; /* of the face added last: names are looked up within one file */
-    uint32_t path_object, path_part; /* the first object and part of that file */
+    uint32_t file_object, file_part; /* the first object and part of the present file */
     uint32_t last_part, last_material;
 };
 
@@ -70,6 +69,8 @@ status geometry_builder_add_vertices(geometry_builder *builder, uint32_t count,
          STATUS_MEMORY, "no memory for %u vertices", g->vertex_count + count);
     *out_position = builder->position + g->vertex_count;
     g->vertex_count += count;
+    builder->file_object = g->object_count;
+    builder->file_part = g->part_count;
 out:
     return rc;
 }
@@ -131,12 +132,12 @@ static status find_part(geometry_builder *builder, const geometry_source_face *f
     geometry *g = builder->g;
     uint32_t object, part = g->part_count;
 
-    if (part > builder->path_part && is_part(g, builder->last_part, face)) return STATUS_OK;
-    while (part-- > builder->path_part) {
+    if (part > builder->file_part && is_part(g, builder->last_part, face)) return STATUS_OK;
+    while (part-- > builder->file_part) {
         builder->last_part = part;
         if (is_part(g, part, face)) return STATUS_OK;
     }
-    if (!find_name(g->object_name, builder->path_object, g->object_count, face->object, &object)) {
+    if (!find_name(g->object_name, builder->file_object, g->object_count, face->object, &object)) {
         object = g->object_count;
         TRY(add_name(&g->object_name, &g->object_count, face->object));
     }
@@ -213,11 +214,6 @@ status geometry_builder_add_face(geometry_builder *builder, const geometry_sourc
     status rc = STATUS_OK;
     uint32_t few[4], *corner = few;
 
-    if (path != builder->path) {
-        builder->path = path;
-        builder->path_object = builder->g->object_count;
-        builder->path_part = builder->g->part_count;
-    }
     TRY(find_part(builder, face));
     TRY(find_material(builder, face, path));
     if (face->corner_count > 4) corner = malloc(face->corner_count * sizeof *corner);

@@ -13,7 +13,8 @@ void geometry_builder_free(geometry_builder *builder);
 uint32_t geometry_builder_vertex_count(const geometry_builder *builder);
 uint32_t geometry_builder_face_count(const geometry_builder *builder);
 
-/* Makes room for `count` vertices; the caller fills out_position, ENU m, before the next call. */
+/* Begins a file: makes room for its `count` vertices; the caller fills out_position, ENU m, before
+ * the next call. */
 status geometry_builder_add_vertices(geometry_builder *builder, uint32_t count,
                                      double (**out_position)[3]);
 
