@@ -22,6 +22,11 @@ static inline spectrum spectrum_load(global const float *row, uint block)
     return vload16(block, row);
 }
 
+static inline void spectrum_store(spectrum s, global float *row, uint block)
+{
+    vstore16(s, block, row);
+}
+
 static inline float spectrum_sum(spectrum s)
 {
     const float8 eight = s.lo + s.hi;
@@ -39,6 +44,11 @@ typedef float spectrum;
 static inline spectrum spectrum_load(global const float *row, uint block)
 {
     return row[block];
+}
+
+static inline void spectrum_store(spectrum s, global float *row, uint block)
+{
+    row[block] = s;
 }
 #endif
 

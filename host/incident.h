@@ -1,0 +1,35 @@
+/* Incident: the radiance that reaches every pixel's surface, ray by ray: the exact mode's
+ * counterpart of the mean background of eq. 2.4-1 and 2.4-2. */
+#ifndef HOST_INCIDENT_H
+#define HOST_INCIDENT_H
+
+#include "geometry.h"
+#include "shape_factor.h"
+
+typedef struct incident incident;
+
+/* Samples the hemisphere above the middle of every facet, which tells how much sky a facet sees that
+ * is itself seen, and lays points of a quadrature over the table of the sky.
+ *   tables   of the facets; the ground's stands behind the real ones
+ *   frame    zenith and azimuth of the sky's table are read
+ * Fails with STATUS_ARGUMENT where the table has more than INCIDENT_DIRECTIONS directions. What is
+ * passed in must outlive it. */
+status incident_open(incident **out, const ray_scene *scene, const shape_factor_grid *grid,
+                     const shape_factor_tables *tables, const geometry *g,
+                     const radiometry_record *frame);
+void incident_free(incident *in);
+
+/* What a tile of pixels brings along; shapes as in kernels/incident.cl. */
+typedef struct incident_pixels {
+    radiometry_record frame;
+    camera_record camera;
+    shape_factor_points points;
+    device_memory background, background_lit;
+    device_memory spectra, emissivity;
+} incident_pixels;
+
+/* Computes the radiance.
+ *   out   float, shape (pixel_count, sample_count) */
+status incident_run(const incident *in, const incident_pixels *pixels, device_memory out);
+
+#endif

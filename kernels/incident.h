@@ -1,0 +1,47 @@
+/* Incident: radiance that reaches a surface from a facet it sees, and the sky's share of the open
+ * hemisphere. The exact counterpart of the background of eq. 2.4-2. */
+#ifndef INCIDENT_H
+#define INCIDENT_H
+
+#include "radiometry.h"
+#include "sky.h"
+
+/* Directions of the sky that one surface can count. */
+#define INCIDENT_DIRECTIONS 1024u
+
+/* A facet as it is seen along one ray. */
+typedef struct incident_facet {
+    float weight; /* of the ray */
+    float temperature_k;
+    float sun;          /* lit x cosine of the sun's angle */
+    float shape_factor; /* the facet's own */
+    lookup emissivity;  /* at the ray's angle */
+} incident_facet;
+
+/* What such a facet radiates: its emission, the sun, its own share of the sky, and what else it
+ * sees taken as black at its temperature, so that an enclosure of one temperature is black.
+ *   sun   E_S tau1; sky   integrated over the hemisphere */
+static inline spectrum incident_radiance(const incident_facet *f, spectrum emissivity,
+                                         spectrum black_body, spectrum sun, spectrum sky)
+{
+    return background_radiance(emissivity, black_body,
+                               sun_on_surface(sun, 1.0f, f->sun) +
+                                   radiance_from_above(f->shape_factor, sky, black_body));
+}
+
+/* Adds a direction of the sky to the weights of the table's directions: bilinear.
+ *   weights   shape (zenith_count x azimuth_count) */
+static inline void incident_add_sky(float *weights, radiometry_record frame, sky_lookup at,
+                                    float weight)
+{
+    const uint low = at.zenith.low * frame.azimuth_count;
+    const uint high = at.zenith.high * frame.azimuth_count;
+    const float up = 1.0f - at.zenith.share, left = 1.0f - at.azimuth.share;
+
+    weights[low + at.azimuth.low] += weight * up * left;
+    weights[low + at.azimuth.high] += weight * up * at.azimuth.share;
+    weights[high + at.azimuth.low] += weight * at.zenith.share * left;
+    weights[high + at.azimuth.high] += weight * at.zenith.share * at.azimuth.share;
+}
+
+#endif
