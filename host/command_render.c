@@ -142,6 +142,8 @@ static status run(const arguments *a)
     TRY(device_open(&dev, (int)a->device));
     TRY(render_output(s, dev, &a->output));
 out:
+    /* A signal can also break off what the system was doing. */
+    if (rc != STATUS_OK && stop) rc = status_set(STATUS_INTERRUPTED, "interrupted");
     device_free(dev);
     scene_free(s);
     return rc;
@@ -161,6 +163,7 @@ int command_render(int argc, char **argv)
         const struct sigaction action = {.sa_handler = on_signal};
         sigaction(SIGINT, &action, NULL);
         sigaction(SIGTERM, &action, NULL);
+        signal(SIGXFSZ, SIG_IGN); /* a limit on files is then an error of writing */
         code = command_end("render", run(a));
     }
     free(a);
