@@ -142,22 +142,19 @@ static status compute(const facet_record *facet, const material_record *matter, 
                       const site *place, float *out_temperature_k)
 {
     status rc = STATUS_OK;
+    const thermal_subject subject = {.facet = facet, .count = 1};
     device *dev = NULL;
-    device_memory facets = NULL, materials = NULL;
-    forcing_record *forcing = calloc(w->count, sizeof *forcing);
+    device_memory materials = NULL;
+    thermal *t = NULL;
 
-    NEED(forcing, STATUS_MEMORY, "no memory for %zu steps", w->count);
-    thermal_forcing(forcing, w, place);
     TRY(device_open(&dev, -1));
-    TRY(device_allocate(dev, &facets, sizeof *facet, facet));
     TRY(device_allocate(dev, &materials, sizeof *matter, matter));
-    TRY(thermal_history(dev, facets, materials, 1, forcing, w->count, w->interval_s,
-                        out_temperature_k));
+    TRY(thermal_open(&t, dev, materials, w, place));
+    TRY(thermal_history(t, &subject, out_temperature_k));
 out:
-    device_release(facets);
+    thermal_free(t);
     device_release(materials);
     device_free(dev);
-    free(forcing);
     return rc;
 }
 

@@ -6,7 +6,7 @@
 #include "spectra.h"
 #include "sun.h"
 #include "sunlight.h"
-#include "thermal.h"
+#include "temperature.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,8 +22,10 @@ struct render {
     spectra *bands;
     radiometry_record frame;
     camera_record camera;
-    size_t facet_count; /* with the ground's */
-    device_memory facets, facet_ids, materials, temperature_k;
+    size_t facet_count;  /* with the ground's */
+    facet_record *facet; /* shape (facet_count) */
+    temperature *warmth;
+    device_memory facets, facet_ids, materials;
     device_memory spectrum_rows, emissivity_rows, band_records, ln_radiance;
     render_plane *planes;
     size_t plane_count;
@@ -66,20 +68,21 @@ out:
     return rc;
 }
 
-static status upload_facets(render *r, facet_record *records)
+static status upload_facets(render *r)
 {
     status rc = STATUS_OK;
     const scene *s = r->s;
     const size_t real = s->shape->facet_count;
-    uint32_t *ids = malloc(r->facet_count * sizeof *ids);
+    uint32_t *ids = malloc((r->facet_count + 1) * sizeof *ids);
     material_record *materials = malloc((s->material_count + 1) * sizeof *materials);
 
-    NEED(ids && materials, STATUS_MEMORY, "no memory for %zu facets", real);
-    scene_facet_records(s, records);
+    r->facet = malloc((r->facet_count + 1) * sizeof *r->facet);
+    NEED(r->facet && ids && materials, STATUS_MEMORY, "no memory for %zu facets", real);
+    scene_facet_records(s, r->facet);
     for (size_t i = 0; i < r->facet_count; i++)
         ids[i] = i < real ? s->shape->facet_id[i] : RECORD_NONE;
     for (uint32_t i = 0; i < s->material_count; i++) materials[i] = s->materials[i].record;
-    TRY(device_allocate(r->dev, &r->facets, r->facet_count * sizeof *records, records));
+    TRY(device_allocate(r->dev, &r->facets, r->facet_count * sizeof *r->facet, r->facet));
     TRY(device_allocate(r->dev, &r->facet_ids, r->facet_count * sizeof *ids, ids));
     TRY(device_allocate(r->dev, &r->materials, s->material_count * sizeof *materials, materials));
 out:
@@ -88,42 +91,15 @@ out:
     return rc;
 }
 
-static status compute_temperatures(render *r)
-{
-    status rc = STATUS_OK;
-    const scene *s = r->s;
-    const weather *w = s->history;
-    forcing_record *forcing = malloc(w->count * sizeof *forcing);
-
-    NEED(forcing, STATUS_MEMORY, "no memory for %zu steps of weather", w->count);
-    thermal_forcing(forcing, w, &s->place);
-    TRY(thermal_run(r->dev, r->facets, r->materials, r->facet_count, forcing, w->count,
-                    w->interval_s, thermal_time_h(w, &s->place), r->temperature_k));
-out:
-    free(forcing);
-    return rc;
-}
-
 static status set_temperatures(render *r)
 {
     status rc = STATUS_OK;
-    const size_t bytes = r->facet_count * sizeof(float);
-    facet_record *records = malloc((r->facet_count + 1) * sizeof *records);
-    float *stated_k = malloc(bytes + 1);
 
-    NEED(records && stated_k, STATUS_MEMORY, "no memory for %zu facets", r->facet_count);
-    TRY(upload_facets(r, records));
-    TRY(device_allocate(r->dev, &r->temperature_k, bytes, NULL));
-    if (r->s->thermal == SCENE_THERMAL_THERM && r->s->history) {
-        TRY(compute_temperatures(r));
-    } else {
-        for (size_t i = 0; i < r->facet_count; i++) stated_k[i] = records[i].stated_temperature_k;
-        TRY(device_upload(r->dev, r->temperature_k, 0, bytes, stated_k));
-    }
+    TRY(upload_facets(r));
+    TRY(temperature_open(&r->warmth, r->dev, r->s, r->facets, r->materials, r->facet,
+                         r->facet_count));
     end_stage(r, "temperatures");
 out:
-    free(records);
-    free(stated_k);
     return rc;
 }
 
@@ -250,10 +226,11 @@ void render_free(render *r)
     device_release(r->band_records);
     device_release(r->emissivity_rows);
     device_release(r->spectrum_rows);
-    device_release(r->temperature_k);
+    temperature_free(r->warmth);
     device_release(r->materials);
     device_release(r->facet_ids);
     device_release(r->facets);
+    free(r->facet);
     spectra_free(r->bands);
     shape_factor_free(r->grid);
     ray_scene_free(r->rays);
@@ -276,7 +253,7 @@ const render_stage *render_stages(const render *r, size_t *out_count)
 typedef struct tile {
     uint32_t first, count;
     shape_factor_points points;
-    device_memory lit, background, background_hit, background_lit;
+    device_memory lit, history, temperature_k, background, background_hit, background_lit;
     device_memory truth_planes, band_planes;
 } tile;
 
@@ -290,10 +267,14 @@ static status open_tile(tile *t, const render *r, uint32_t first, uint32_t count
     TRY(device_allocate(r->dev, &t->points.met,
                         n * shape_factor_cell_count(r->grid) * sizeof(uint32_t), NULL));
     TRY(device_allocate(r->dev, &t->lit, n * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &t->history,
+                        n * temperature_history_words(r->warmth) * sizeof(uint32_t), NULL));
+    TRY(device_allocate(r->dev, &t->temperature_k, n * sizeof(float), NULL));
     TRY(device_allocate(r->dev, &t->background, n * sizeof(background_record), NULL));
     TRY(device_allocate(r->dev, &t->background_hit, n * sizeof(hit_record), NULL));
     TRY(device_allocate(r->dev, &t->background_lit, n * sizeof(float), NULL));
-    TRY(device_allocate(r->dev, &t->truth_planes, n * TRUTH_PLANES * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &t->truth_planes, n * (TRUTH_PLANES + SUN_PLANES) * sizeof(float),
+                        NULL));
     TRY(device_allocate(r->dev, &t->band_planes, n * r->s->band_count * BAND_PLANES * sizeof(float),
                         NULL));
 out:
@@ -307,6 +288,8 @@ static void free_tile(tile *t)
     device_release(t->background_lit);
     device_release(t->background_hit);
     device_release(t->background);
+    device_release(t->temperature_k);
+    device_release(t->history);
     device_release(t->lit);
     device_release(t->points.met);
     device_release(t->points.hit);
@@ -316,7 +299,8 @@ static void free_tile(tile *t)
 static status trace_tile(const render *r, const tile *t)
 {
     status rc = STATUS_OK;
-    const shape_factor_tables tables = {r->facets, r->temperature_k, r->materials};
+    const device_memory facet_k = temperature_of_facets(r->warmth);
+    const shape_factor_tables tables = {r->facets, facet_k, r->materials};
     const device_memory nodes = ray_scene_nodes(r->rays), blocks = ray_scene_blocks(r->rays);
     const world_record world = ray_scene_world(r->rays);
 
@@ -325,8 +309,8 @@ static status trace_tile(const render *r, const tile *t)
     TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->points.hit, t->lit));
     TRY(shape_factor_run(r->grid, r->rays, &tables, NULL, &t->points, t->background));
     TRY(device_run(r->dev, "mirror", shape1(t->count), ARG(t->count), ARG(r->camera), ARG(world),
-                   ARG(nodes), ARG(blocks), ARG(r->facets), ARG(r->temperature_k),
-                   ARG(r->materials), ARG(t->points.hit), ARG(t->background)));
+                   ARG(nodes), ARG(blocks), ARG(r->facets), ARG(facet_k), ARG(r->materials),
+                   ARG(t->points.hit), ARG(t->background)));
     TRY(device_run(r->dev, "background_hit", shape1(t->count), ARG(t->count), ARG(t->background),
                    ARG(t->background_hit)));
     TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->background_hit, t->background_lit));
@@ -342,10 +326,10 @@ static status colour_tile(const render *r, const tile *t)
     frame.first_pixel = t->first;
     frame.pixel_count = t->count;
     TRY(device_run(r->dev, "truth", shape1(t->count), ARG(frame), ARG(r->camera), ARG(r->facets),
-                   ARG(r->facet_ids), ARG(r->materials), ARG(r->temperature_k), ARG(t->points.hit),
+                   ARG(r->facet_ids), ARG(r->materials), ARG(t->temperature_k), ARG(t->points.hit),
                    ARG(t->background), ARG(t->lit), ARG(t->background_lit), ARG(t->truth_planes)));
     TRY(device_run(r->dev, "radiometry", shape1(t->count), ARG(frame), ARG(r->camera),
-                   ARG(r->facets), ARG(r->materials), ARG(r->temperature_k), ARG(t->points.hit),
+                   ARG(r->facets), ARG(r->materials), ARG(t->temperature_k), ARG(t->points.hit),
                    ARG(t->background), ARG(t->lit), ARG(t->background_lit), ARG(r->spectrum_rows),
                    ARG(r->emissivity_rows), ARG(r->band_records), ARG(r->ln_radiance),
                    ARG(t->band_planes)));
@@ -360,6 +344,8 @@ status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float 
 
     TRY(open_tile(&t, r, first_pixel, pixel_count));
     TRY(trace_tile(r, &t));
+    TRY(temperature_of_pixels(r->warmth, r->rays, t.count, t.points.hit, TRUTH_PLANES, t.history,
+                              t.temperature_k, t.truth_planes));
     TRY(colour_tile(r, &t));
     for (size_t i = 0; i < r->plane_count; i++) {
         const render_plane *p = &r->planes[i];

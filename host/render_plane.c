@@ -8,14 +8,21 @@ typedef struct plane_kind {
     bool categorical;
 } plane_kind;
 
-/* As truth.cl writes them. */
-static const plane_kind truth_kinds[TRUTH_PLANES] = {
-    {"material", "number", true},      {"background_material", "number", true},
-    {"sunlit", "0..1", false},         {"background_sunlit", "0..1", false},
-    {"temperature_c", "C", false},     {"background_temperature_c", "C", false},
-    {"interaction", "number", true},   {"view_angle_deg", "degrees", false},
-    {"shape_factor", "cosine", false}, {"range_m", "m", false},
+/* As truth.cl and sun_times.cl write them. */
+static const plane_kind truth_kinds[TRUTH_PLANES + SUN_PLANES] = {
+    {"material", "number", true},
+    {"background_material", "number", true},
+    {"sunlit", "0..1", false},
+    {"background_sunlit", "0..1", false},
+    {"temperature_c", "C", false},
+    {"background_temperature_c", "C", false},
+    {"interaction", "number", true},
+    {"view_angle_deg", "degrees", false},
+    {"shape_factor", "cosine", false},
+    {"range_m", "m", false},
     {"facet", "number", true},
+    {"hours_lit_24h", "h", false},
+    {"minutes_since_sun_change", "min", false},
 };
 
 /* As radiometry.cl writes them. */
@@ -57,14 +64,14 @@ status render_plane_list(render_plane **out, size_t *out_count, const scene *s,
                          const double *centre_um, const double *width_um)
 {
     status rc = STATUS_OK;
-    const size_t count = TRUTH_PLANES + (size_t)s->band_count * BAND_PLANES;
+    const size_t count = TRUTH_PLANES + SUN_PLANES + (size_t)s->band_count * BAND_PLANES;
     render_plane *list = calloc(count, sizeof *list);
     size_t n = 0;
 
     NEED(list, STATUS_MEMORY, "no memory for the list of planes");
     for (uint32_t b = 0; b < s->band_count; b++)
         list[n++] = band_plane(s, b, 0, centre_um[b], width_um[b]);
-    for (uint32_t k = 0; k < TRUTH_PLANES; k++) list[n++] = truth_plane(s, k);
+    for (uint32_t k = 0; k < TRUTH_PLANES + SUN_PLANES; k++) list[n++] = truth_plane(s, k);
     for (uint32_t b = 0; b < s->band_count; b++)
         for (uint32_t k = 1; k < BAND_PLANES; k++) list[n++] = band_plane(s, b, k, 0.0, 0.0);
     for (size_t i = 0; i < n; i++) list[i].plane.name = list[i].name;

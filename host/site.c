@@ -120,6 +120,13 @@ out:
     return rc;
 }
 
+double site_midnight_s(const site *place)
+{
+    const double offset_s = 60.0 * place->utc_offset_min;
+
+    return 86400.0 * floor((place->time_s + offset_s) / 86400.0) - offset_s;
+}
+
 void site_format_time(double time_s, int utc_offset_min, char out[SITE_TIME_SIZE])
 {
     const long long total_ms = llround((time_s + utc_offset_min * MINUTE_S) * 1000.0);

@@ -28,6 +28,9 @@ status site_read_node(site_node *out, const char *path);
  * 1987-06-24T15:00:00.5Z. Fails with STATUS_ARGUMENT, the message holds the text. */
 status site_parse_time(const char *iso, double *time_s, int *utc_offset_min);
 
+/* UTC time in seconds of the midnight that begins the local day of the site's time. */
+double site_midnight_s(const site *place);
+
 /* Writes the time as ISO 8601 at that offset; three decimals of the second unless it is whole. */
 void site_format_time(double time_s, int utc_offset_min, char out[SITE_TIME_SIZE]);
 

@@ -1,12 +1,21 @@
 #include "thermal.h"
 
 #include "../kernels/thermal.h"
+#include "distinct.h"
 #include "sun.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define WATER_J_M3_K 4.182e6 /* density times specific heat of water at 20 C */
+
+struct thermal {
+    device *dev;
+    device_memory materials, forcing;
+    size_t step_count;
+    double step_s, time_h; /* of the image, since the first step */
+};
 
 /* Rise of the sky's emissivity under an overcast of each cloud type: Bolz. */
 static const double cloud_rise[WEATHER_CLOUD_TYPES] = {0.0,  0.04, 0.08, 0.17, 0.20,
@@ -44,76 +53,170 @@ static forcing_record forcing_of(const weather_record *w, sun_position sun)
     return out;
 }
 
-void thermal_forcing(forcing_record *out, const weather *w, const site *place)
+static status upload_forcing(thermal *t, const weather *w, const site *place)
 {
+    status rc = STATUS_OK;
     const double origin_s = weather_origin_s(w, place);
+    forcing_record *forcing = malloc(w->count * sizeof *forcing);
 
+    NEED(forcing, STATUS_MEMORY, "no memory for %zu steps of weather", w->count);
     for (size_t i = 0; i < w->count; i++) {
         const double time_s = origin_s + 3600.0 * w->record[i].time_h;
-        out[i] =
+        forcing[i] =
             forcing_of(&w->record[i], sun_at(time_s, place->latitude_deg, place->longitude_deg));
     }
-}
-
-double thermal_time_h(const weather *w, const site *place)
-{
-    return (place->time_s - weather_origin_s(w, place)) / 3600.0 - w->record[0].time_h;
-}
-
-/* Launches the kernel; the forcing's memory lives until the launch has ended. */
-static status launch(device *dev, device_memory facets, device_memory materials,
-                     const forcing_record *forcing, thermal_span span, device_memory temperature_k)
-{
-    status rc = STATUS_OK;
-    device_memory steps = NULL, always_lit = NULL;
-    const size_t count = span.first_step + span.row_count;
-
-    TRY(device_allocate(dev, &steps, count * sizeof *forcing, forcing));
-    TRY(device_run(dev, "thermal", shape1(span.facet_count), ARG(span), ARG(facets), ARG(materials),
-                   ARG(steps), ARG(always_lit), ARG(temperature_k)));
+    TRY(device_allocate(t->dev, &t->forcing, w->count * sizeof *forcing, forcing));
 out:
-    device_release(steps);
+    free(forcing);
     return rc;
 }
 
-status thermal_run(device *dev, device_memory facets, device_memory materials, size_t facet_count,
-                   const forcing_record *forcing, size_t step_count, double step_s, double time_h,
-                   device_memory out_temperature_k)
+status thermal_open(thermal **out, device *dev, device_memory materials, const weather *w,
+                    const site *place)
 {
     status rc = STATUS_OK;
-    const double position = time_h * 3600.0 / step_s;
+    thermal *t = calloc(1, sizeof *t);
 
-    NEED(position >= 0.0 && position <= (double)step_count - 1.0, STATUS_ARGUMENT,
-         "temperatures: %g h after the first weather record is outside the weather's %g h", time_h,
-         ((double)step_count - 1.0) * step_s / 3600.0);
-    rc = launch(dev, facets, materials, forcing,
-                (thermal_span){.facet_count = (uint)facet_count,
-                               .first_step = (uint)ceil(position),
+    NEED(t, STATUS_MEMORY, "no memory for temperatures");
+    *t = (thermal){
+        .dev = dev,
+        .materials = materials,
+        .step_count = w->count,
+        .step_s = w->interval_s,
+        .time_h = (place->time_s - weather_origin_s(w, place)) / 3600.0 - w->record[0].time_h,
+    };
+    TRY(upload_forcing(t, w, place));
+    *out = t;
+    t = NULL;
+out:
+    thermal_free(t);
+    return rc;
+}
+
+void thermal_free(thermal *t)
+{
+    if (!t) return;
+    device_release(t->forcing);
+    free(t);
+}
+
+/* Computes rows of temperatures; the span's steps and weight are set. */
+static status compute(const thermal *t, const thermal_subject *subject, thermal_span span,
+                      float *out_temperature_k)
+{
+    status rc = STATUS_OK;
+    device_memory facets = NULL, lit = NULL, temperature_k = NULL;
+    const size_t count = subject->count, bytes = span.row_count * count * sizeof(float);
+
+    span.facet_count = (uint)count;
+    span.sunlit_words = subject->word_count;
+    span.sunlit_period = subject->slot_count;
+    span.step_s = (float)t->step_s;
+    TRY(device_allocate(t->dev, &facets, count * sizeof *subject->facet, subject->facet));
+    if (subject->lit)
+        TRY(device_allocate(t->dev, &lit, count * subject->word_count * sizeof(uint32_t),
+                            subject->lit));
+    TRY(device_allocate(t->dev, &temperature_k, bytes, NULL));
+    TRY(device_run(t->dev, "thermal", shape1(count), ARG(span), ARG(facets), ARG(t->materials),
+                   ARG(t->forcing), ARG(lit), ARG(temperature_k)));
+    TRY(device_download(t->dev, temperature_k, 0, bytes, out_temperature_k));
+out:
+    device_release(temperature_k);
+    device_release(lit);
+    device_release(facets);
+    return rc;
+}
+
+/* Normals are told apart in steps of 2^-13, and computed at these: a step is worth .1 W/m2 of the
+ * sun, and meshes hold the same normal with different roundings. Slope and azimuth follow from it. */
+static facet_record key_of(const facet_record *facet)
+{
+    facet_record key = *facet;
+
+    for (int i = 0; i < 3; i++) key.normal[i] = roundf(facet->normal[i] * 8192.0f) / 8192.0f + 0.0f;
+    key.slope_rad = key.azimuth_rad = 0.0f;
+    return key;
+}
+
+/* Subjects that differ, and which of them stands for each. */
+typedef struct kinds {
+    uint32_t *key; /* shape (count, facet and words) */
+    uint32_t *group, *first;
+    facet_record *facet;
+    uint32_t *lit;
+    size_t count;
+} kinds;
+
+static void kinds_free(kinds *k)
+{
+    free(k->lit);
+    free(k->facet);
+    free(k->first);
+    free(k->group);
+    free(k->key);
+}
+
+static status kinds_find(kinds *k, const thermal_subject *s)
+{
+    status rc = STATUS_OK;
+    const size_t facet_words = sizeof *s->facet / sizeof(uint32_t);
+    const size_t words = facet_words + s->word_count;
+
+    k->key = malloc((s->count + 1) * words * sizeof *k->key);
+    k->group = malloc((s->count + 1) * sizeof *k->group);
+    k->first = malloc((s->count + 1) * sizeof *k->first);
+    NEED(k->key && k->group && k->first, STATUS_MEMORY, "no memory for %zu temperatures", s->count);
+    for (size_t i = 0; i < s->count; i++) {
+        const facet_record key = key_of(&s->facet[i]);
+        memcpy(k->key + i * words, &key, sizeof key);
+        for (size_t j = 0; j < s->word_count; j++)
+            k->key[i * words + facet_words + j] = s->lit[i * s->word_count + j];
+    }
+    TRY(distinct_rows(k->key, words, s->count, k->group, k->first, &k->count));
+    k->facet = malloc((k->count + 1) * sizeof *k->facet);
+    k->lit = malloc((k->count * s->word_count + 1) * sizeof *k->lit);
+    NEED(k->facet && k->lit, STATUS_MEMORY, "no memory for %zu temperatures", k->count);
+    for (size_t i = 0; i < k->count; i++) {
+        k->facet[i] = key_of(&s->facet[k->first[i]]);
+        for (size_t j = 0; j < s->word_count; j++)
+            k->lit[i * s->word_count + j] = s->lit[k->first[i] * s->word_count + j];
+    }
+out:
+    return rc;
+}
+
+status thermal_at_time(const thermal *t, const thermal_subject *subject, float *out_temperature_k)
+{
+    status rc = STATUS_OK;
+    const double position = t->time_h * 3600.0 / t->step_s;
+    const thermal_span span = {.first_step = (uint)ceil(position),
                                .row_count = 1,
-                               .weight = (float)(1.0 - (ceil(position) - position)),
-                               .step_s = (float)step_s},
-                out_temperature_k);
+                               .weight = (float)(1.0 - (ceil(position) - position))};
+    kinds k = {0};
+    float *of_kind = NULL;
+
+    NEED(position >= 0.0 && position <= (double)t->step_count - 1.0, STATUS_ARGUMENT,
+         "temperatures: %g h after the first weather record is outside the weather's %g h",
+         t->time_h, ((double)t->step_count - 1.0) * t->step_s / 3600.0);
+    if (subject->count == 0) goto out;
+    TRY(kinds_find(&k, subject));
+    of_kind = malloc(k.count * sizeof *of_kind);
+    NEED(of_kind, STATUS_MEMORY, "no memory for %zu temperatures", k.count);
+    thermal_subject distinct = *subject;
+    distinct.facet = k.facet;
+    distinct.count = k.count;
+    if (subject->lit) distinct.lit = k.lit;
+    TRY(compute(t, &distinct, span, of_kind));
+    for (size_t i = 0; i < subject->count; i++) out_temperature_k[i] = of_kind[k.group[i]];
 out:
+    free(of_kind);
+    kinds_free(&k);
     return rc;
 }
 
-status thermal_history(device *dev, device_memory facets, device_memory materials,
-                       size_t facet_count, const forcing_record *forcing, size_t step_count,
-                       double step_s, float *out_temperature_k)
+status thermal_history(const thermal *t, const thermal_subject *subject, float *out_temperature_k)
 {
-    status rc = STATUS_OK;
-    device_memory history = NULL;
-    const size_t bytes = step_count * facet_count * sizeof *out_temperature_k;
+    const thermal_span span = {.row_count = (uint)t->step_count, .weight = 1.0f};
 
-    TRY(device_allocate(dev, &history, bytes, NULL));
-    TRY(launch(dev, facets, materials, forcing,
-               (thermal_span){.facet_count = (uint)facet_count,
-                              .row_count = (uint)step_count,
-                              .weight = 1.0f,
-                              .step_s = (float)step_s},
-               history));
-    TRY(device_download(dev, history, 0, bytes, out_temperature_k));
-out:
-    device_release(history);
-    return rc;
+    return compute(t, subject, span, out_temperature_k);
 }

@@ -1,5 +1,6 @@
-/* Thermal: facet temperatures from the weather history, a reconstruction of what THERM does. Thesis
- * 2.2; equations in kernels/thermal.h. */
+/* Thermal: temperatures from the weather history, a reconstruction of what THERM does. Thesis 2.2;
+ * equations in kernels/thermal.h. Facets and pixels are computed alike: a pixel is a facet with its
+ * own history of sun and shadow (Figures 3-8, 3-9). */
 #ifndef THERMAL_H
 #define THERMAL_H
 
@@ -8,28 +9,33 @@
 #include "site.h"
 #include "weather.h"
 
-/* Turns every record of the weather into what acts on a facet. The last full day of the history is
- * the day of the site's time.
- *   out   shape (w->count); the caller allocates */
-void thermal_forcing(forcing_record *out, const weather *w, const site *place);
+typedef struct thermal thermal;
 
-/* Hours from the first record of the weather to the site's time; between 0 and the history's length
- * where the history covers that day. */
-double thermal_time_h(const weather *w, const site *place);
+/* Turns the weather into what acts on a surface. The last full day of the history is the day of the
+ * site's time. The device and the materials must outlive it.
+ *   materials   material_record, those that facets name */
+status thermal_open(thermal **out, device *dev, device_memory materials, const weather *w,
+                    const site *place);
+void thermal_free(thermal *t);
 
-/* Computes the temperature of every facet at one time, all steps sunlit; launches and does not
- * wait. facets, materials   facet_record[facet_count] and the materials that they name step_s time
- * between forcing records time_h              hours since the first forcing record; linear between
- * steps out_temperature_k   float32, shape (facet_count) Fails with STATUS_ARGUMENT where the time
- * is outside the forcing. */
-status thermal_run(device *dev, device_memory facets, device_memory materials, size_t facet_count,
-                   const forcing_record *forcing, size_t step_count, double step_s, double time_h,
-                   device_memory out_temperature_k);
+/* What to compute temperatures of. */
+typedef struct thermal_subject {
+    const facet_record *facet; /* shape (count) */
+    size_t count;
+    const uint32_t *lit; /* shape (count, word_count), bit slot % 32 of word slot / 32: 1 where
+                               the sun reaches it; NULL: always lit */
+    uint32_t word_count; /* 0 without lit */
+    uint32_t slot_count; /* step k has slot k % slot_count */
+} thermal_subject;
 
-/* The same at every step.
- *   out_temperature_k   shape (step_count, facet_count); the caller allocates */
-status thermal_history(device *dev, device_memory facets, device_memory materials,
-                       size_t facet_count, const forcing_record *forcing, size_t step_count,
-                       double step_s, float *out_temperature_k);
+/* Computes the temperatures at the site's time, linear between steps. What is equal is computed
+ * once, so that a value depends neither on its neighbours nor on its place.
+ *   out_temperature_k   shape (count)
+ * Fails with STATUS_ARGUMENT where the weather does not cover the site's time. */
+status thermal_at_time(const thermal *t, const thermal_subject *subject, float *out_temperature_k);
+
+/* The same at every step of the weather; nothing is compared.
+ *   out_temperature_k   shape (weather's count, count) */
+status thermal_history(const thermal *t, const thermal_subject *subject, float *out_temperature_k);
 
 #endif

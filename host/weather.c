@@ -78,10 +78,7 @@ double weather_day_start_h(const weather *w)
 
 double weather_origin_s(const weather *w, const site *place)
 {
-    const double offset_s = 60.0 * place->utc_offset_min;
-    const double midnight_s = 86400.0 * floor((place->time_s + offset_s) / 86400.0) - offset_s;
-
-    return midnight_s - 3600.0 * weather_day_start_h(w);
+    return site_midnight_s(place) - 3600.0 * weather_day_start_h(w);
 }
 
 status weather_allocate(weather **out, size_t count, double interval_s)

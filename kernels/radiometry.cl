@@ -59,8 +59,7 @@ static spectrum block_radiance(const pixel_state *pixel, spectra_tables tables,
 static pixel_state pixel_look(radiometry_record frame, camera_record camera, uint pixel,
                               hit_record hit, background_record background, float sunlit,
                               float background_sunlit, global const facet_record *facets,
-                              global const material_record *materials,
-                              global const float *temperature_k)
+                              global const material_record *materials, float temperature_k)
 {
     pixel_state state = {0};
     float ray[3];
@@ -70,7 +69,7 @@ static pixel_state pixel_look(radiometry_record frame, camera_record camera, uin
         state.sky = sky_find(frame, ray[0], ray[1], ray[2]);
         return state;
     }
-    state.temperature_k = temperature_k[hit.facet];
+    state.temperature_k = temperature_k;
     state.sunlit = sunlit;
     state.shape_factor = background.shape_factor;
     const material_record material = materials[facets[hit.facet].material];
@@ -84,8 +83,8 @@ static pixel_state pixel_look(radiometry_record frame, camera_record camera, uin
 
 /* Radiance at the sensor, eq. 2.4-2 and 2.4-3, and what goes with it, per band.
  * Launch: (frame.pixel_count).
- * facets, temperature_k: per facet, the ground's behind the real ones; materials: material_record
- * hit, background, sunlit, background_sunlit: per pixel
+ * facets: per facet, the ground's behind the real ones; materials: material_record
+ * temperature_k, hit, background, sunlit, background_sunlit: per pixel
  * spectra: shape (rows, sample_count), see SPECTRA_...; emissivity: shape (rows, sample_count)
  * bands: band_record; ln_radiance: shape (band_count, BAND_TEMPERATURES)
  * planes: shape (band_count, BAND_PLANES, pixel_count): radiance W m-2 sr-1 (or its mean per um),
@@ -104,7 +103,7 @@ kernel void radiometry(const radiometry_record frame, const camera_record camera
     const spectra_tables tables = {spectra, emissivity};
     const pixel_state state =
         pixel_look(frame, camera, pixel, hit[pixel], background[pixel], sunlit[pixel],
-                   background_sunlit[pixel], facets, materials, temperature_k);
+                   background_sunlit[pixel], facets, materials, temperature_k[pixel]);
     for (uint b = 0; b < frame.band_count; b++) {
         const band_record band = bands[b];
         spectrum radiance_sum = (spectrum)0.0f, emissivity_sum = (spectrum)0.0f;

@@ -167,6 +167,7 @@ RECORD_SIZE(band_record, 32);
 /* Planes that the radiometry writes per band, and those that it writes once. */
 #define BAND_PLANES 5u /* radiance, counts, apparent temperature, emissivity, background's */
 #define TRUTH_PLANES 11u
+#define SUN_PLANES 2u /* behind those: of the sun's history */
 
 /* What stands in a plane where a pixel has no value. */
 #define NO_VALUE (-9999.0f)

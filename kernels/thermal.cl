@@ -1,22 +1,23 @@
 #include "thermal.h"
 
-static float lit(global const uint *sunlit, uint words, uint facet, uint step)
+static float lit(global const uint *sunlit, thermal_span span, uint facet, uint step)
 {
-    if (words == 0) return 1.0f;
-    return (float)(sunlit[(size_t)facet * words + step / 32] >> (step % 32) & 1u);
+    const uint slot = span.sunlit_period ? step % span.sunlit_period : step;
+
+    if (span.sunlit_words == 0) return 1.0f;
+    return (float)(sunlit[(size_t)facet * span.sunlit_words + slot / 32] >> (slot % 32) & 1u);
 }
 
 /* Launch: (facet_count).
  * facets: shape (facet_count), thickness above 0 and a material of `materials` unless its
  * temperature is stated; forcing: (first_step + row_count), span.step_s apart; sunlit:
- * (facet_count, span.sunlit_words), bit `step % 32` of word `step / 32` set where the sun reaches
- * the facet, NULL without words; temperature_k: (row_count, facet_count). */
+ * (facet_count, span.sunlit_words), bit `slot % 32` of word `slot / 32` set where the sun reaches
+ * the facet at step slot, slot + period ...; NULL without words; temperature_k: (row_count, facet_count). */
 kernel void thermal(const thermal_span span, global const facet_record *facets,
                     global const material_record *materials, global const forcing_record *forcing,
                     global const uint *sunlit, global float *temperature_k)
 {
     const uint facet = get_global_id(0);
-    const uint words = span.sunlit_words;
     if (facet >= span.facet_count) return;
 
     const float stated_k = facets[facet].stated_temperature_k;
@@ -26,13 +27,13 @@ kernel void thermal(const thermal_span span, global const facet_record *facets,
         return;
     }
     const thermal_body body = thermal_body_of(facets[facet], materials[facets[facet].material]);
-    thermal_load before = thermal_load_of(body, forcing[0], lit(sunlit, words, facet, 0));
+    thermal_load before = thermal_load_of(body, forcing[0], lit(sunlit, span, facet, 0));
     thermal_state state = thermal_start(body, before);
     float earlier_k = state.front_k;
     for (uint step = 0; step < span.first_step + span.row_count; step++) {
         if (step > 0) {
             const thermal_load after =
-                thermal_load_of(body, forcing[step], lit(sunlit, words, facet, step));
+                thermal_load_of(body, forcing[step], lit(sunlit, span, facet, step));
             earlier_k = state.front_k;
             thermal_advance(&state, body, before, after, span.step_s);
             before = after;

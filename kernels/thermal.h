@@ -27,7 +27,8 @@ typedef struct thermal_span {
     uint sunlit_words; /* words per facet in the sunlit mask; 0: no mask, always lit */
     float weight;      /* above 0, at most 1 */
     float step_s;
-    uint unused[2];
+    uint sunlit_period; /* steps after which the mask begins anew; 0: never */
+    uint unused;
 } thermal_span;
 RECORD_SIZE(thermal_span, 32);
 

@@ -2,9 +2,9 @@
 
 /* The planes that do not depend on the band (Figures 3-4 to 3-14).
  * Launch: (frame.pixel_count).
- * facets, facet_id, temperature_k: per facet, the ground's behind the real ones (its id is
- *   RECORD_NONE); materials: material_record
- * hit, background, sunlit, background_sunlit: per pixel
+ * facets, facet_id: per facet, the ground's behind the real ones (its id is RECORD_NONE);
+ *   materials: material_record
+ * temperature_k, hit, background, sunlit, background_sunlit: per pixel
  * planes: shape (TRUTH_PLANES, pixel_count): material and background material (numbers), sunlit and
  *   background sunlit (0..1), temperature and background temperature (C), interaction, view angle
  *   (degrees), shape factor, range (m), facet (id); NO_VALUE where there is none */
@@ -30,7 +30,7 @@ kernel void truth(const radiometry_record frame, const camera_record camera,
         pixel_ray(camera, frame.columns, frame.first_pixel + pixel, ray);
         value[0] = (float)material.number;
         value[2] = sunlit[pixel];
-        value[4] = temperature_k[target.facet] - ZERO_CELSIUS_K;
+        value[4] = temperature_k[pixel] - ZERO_CELSIUS_K;
         value[6] = (float)pixel_interaction(material, behind);
         value[7] = pixel_angle_deg(-pixel_dot(target.normal, ray));
         value[8] = behind.shape_factor;

@@ -90,7 +90,7 @@ class Reference:
         behind, e_b = (0.0, None) if b["facet"] == NONE else self.background(pixel)
         cosine = max(0.0, normal @ self.frame["sun"].astype(np.float64))
         sun = self.rows[records.SUN] / np.pi * float(case.sunlit[pixel]) * cosine
-        leaving = (e * planck(self.wavelength_um, float(case.temperature_k[hit["facet"]]))
+        leaving = (e * planck(self.wavelength_um, float(case.temperature_k[pixel]))
                    + (sun + share * sky + (1 - share) * behind) * (1 - e))
         zenith = (angle_deg(-ray[2]) - self.frame["path_zenith_first_deg"])
         place = zenith / self.frame["path_zenith_step_deg"]
@@ -158,7 +158,6 @@ class Case:
         self.materials["number"] = [3, 14, 15, 92, 65, 35]
         self.facets = np.zeros(40, records.FACET)
         self.facets["material"] = self.random.integers(0, 6, 40)
-        self.temperature_k = self.random.uniform(240, 340, 40).astype(np.float32)
         table = []
         for angles in self.materials["emissivity_angles"]:  # falls off towards grazing angles
             at_normal = self.random.uniform(0.1, 1.0, len(self.weight))
@@ -200,3 +199,4 @@ class Case:
         towards = (behind * (self.hit["point"] - b["point"])).sum(1)
         b["normal"] = behind * np.sign(towards)[:, None]
         self.sunlit, self.background_sunlit = random.random((2, n)).astype(np.float32)
+        self.temperature_k = random.uniform(240, 340, n).astype(np.float32)

@@ -103,7 +103,7 @@ def test_pixels_do_not_depend_on_tiles(opencl):
     part.frame = case.frame.copy()
     part.frame["first_pixel"] += 37
     part.frame["pixel_count"] = 30
-    for name in ("hit", "background", "sunlit", "background_sunlit"):
+    for name in ("temperature_k", "hit", "background", "sunlit", "background_sunlit"):
         setattr(part, name, getattr(case, name)[37:67])
 
     assert run(opencl, part).tobytes() == np.ascontiguousarray(whole[:, :, 37:67]).tobytes()

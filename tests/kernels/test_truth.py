@@ -33,7 +33,9 @@ def run(opencl, hit, background, sunlit, background_sunlit, *, columns=8, first=
     """The planes by name."""
     frame, camera = look_down(columns)
     frame["first_pixel"], frame["pixel_count"] = first, len(hit)
-    arrays = [*scene(), hit, background, np.float32(sunlit), np.float32(background_sunlit)]
+    facets, ids, materials, facet_k = scene()
+    pixel_k = facet_k[np.minimum(hit["facet"], GROUND)]
+    arrays = [facets, ids, materials, pixel_k, hit, background, np.float32(sunlit), np.float32(background_sunlit)]
     arguments = [frame[0], camera[0], *(probe.copy(opencl, a) for a in arrays)]
     planes = probe.launch(opencl, opencl.build("truth"), 64, arguments,
                           (records.TRUTH_PLANES, len(hit)))

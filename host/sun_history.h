@@ -1,0 +1,38 @@
+/* Sun history: on which steps of the 24 hours before a time the sun reaches points; one shadow ray
+ * a point and step with the sun up. Thesis 2.2.1, Figure 3-8. */
+#ifndef SUN_HISTORY_H
+#define SUN_HISTORY_H
+
+#include "ray_scene.h"
+#include "site.h"
+
+typedef struct sun_history sun_history;
+
+/* Computes where the sun stood. The last step is the first at or after the site's time.
+ *   origin_s   UTC time in seconds of step 0, before the site's time
+ *   step_s     divides an hour */
+status sun_history_open(sun_history **out, device *dev, const site *place, double origin_s,
+                        double step_s);
+void sun_history_free(sun_history *history);
+
+/* Steps of 24 hours. Step k of the weather has bit k % slots. */
+uint32_t sun_history_slots(const sun_history *history);
+
+/* 32-bit words that hold the bits of a point. */
+uint32_t sun_history_words(const sun_history *history);
+
+/* Casts the rays.
+ *   facets    facet_record, the ground's too
+ *   hit       hit_record, shape (count)
+ *   out_lit   uint32, shape (count, words): 1 where the sun reaches the outward side of the facet,
+ *             or either side of a two-sided one. The ground plane is never in shadow (assumed) */
+status sun_history_trace(const sun_history *history, const ray_scene *scene, device_memory facets,
+                         uint32_t count, device_memory hit, device_memory out_lit);
+
+/* Sums the bits up: hours lit in the last 24, minutes since the sun came or went.
+ *   out_planes   float, shape (first_plane + 2, count); its last two rows are written, NO_VALUE
+ *                where a point has no value */
+status sun_history_times(const sun_history *history, uint32_t count, uint32_t first_plane,
+                         device_memory hit, device_memory lit, device_memory out_planes);
+
+#endif

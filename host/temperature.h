@@ -1,0 +1,34 @@
+/* Temperature: of the facets and of the pixels of a scene at its time; a pixel's follows from its
+ * own history of sun and shadow. Thesis 2.2.1, 2.5.5, Figures 3-8, 3-9. */
+#ifndef TEMPERATURE_H
+#define TEMPERATURE_H
+
+#include "ray_scene.h"
+#include "scene.h"
+
+typedef struct temperature temperature;
+
+/* Computes the facets' temperatures: stated ones, or from the weather with the sun on them whenever
+ * it shines. Scene, device and memory must outlive it.
+ *   facets, materials   facet_record with the ground's last, material_record
+ *   facet               shape (facet_count): the same records */
+status temperature_open(temperature **out, device *dev, const scene *s, device_memory facets,
+                        device_memory materials, const facet_record *facet, size_t facet_count);
+void temperature_free(temperature *t);
+
+/* float, shape (facet_count). */
+device_memory temperature_of_facets(const temperature *t);
+
+/* 32-bit words in which a pixel's history of the last 24 hours fits. */
+uint32_t temperature_history_words(const temperature *t);
+
+/* Casts the rays towards the day's suns and computes the temperatures of a tile.
+ *   hit           hit_record, shape (count)
+ *   out_history   uint32, shape (count, words)
+ *   out_k         float, shape (count); 0 where a pixel meets nothing
+ *   out_planes    float, shape (first_plane + SUN_PLANES, count): the last SUN_PLANES are written */
+status temperature_of_pixels(const temperature *t, const ray_scene *rays, uint32_t count,
+                             device_memory hit, uint32_t first_plane, device_memory out_history,
+                             device_memory out_k, device_memory out_planes);
+
+#endif

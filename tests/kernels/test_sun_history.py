@@ -1,0 +1,146 @@
+import pathlib
+import sys
+
+import numpy as np
+import probe
+import pytest
+import records
+from ray_world import NONE, RayWorld, points
+from records import NO_VALUE
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+import cases  # noqa: E402
+
+DAY = np.dtype([("slot_count", "u4"), ("word_count", "u4"), ("nearest", "u4"),
+                ("since_min", "f4"), ("step_min", "f4"), ("unused", "u4", 3)])
+SLOTS, WORDS = 96, 3
+UP = (0, 0, 1)
+
+
+def a_day(nearest=0, since_min=0.0):
+    day = np.zeros(1, DAY)
+    day[0] = (SLOTS, WORDS, nearest, since_min, 15.0, (0, 0, 0))
+    return day
+
+
+def suns(elevation_deg):
+    """Once round the horizon in a day, at a height for each slot; by night below it."""
+    azimuth = np.radians(np.arange(SLOTS) * 360 / SLOTS)
+    height = np.radians(np.broadcast_to(elevation_deg, SLOTS))
+    sun = np.zeros((SLOTS, 4), np.float32)
+    sun[:, 0], sun[:, 1] = np.cos(height) * np.sin(azimuth), np.cos(height) * np.cos(azimuth)
+    sun[:, 2] = np.sin(height)
+    return sun
+
+
+def tower(opencl):
+    """A level plane and a tower one metre wide and ten metres high at the origin."""
+    return RayWorld(opencl, cases.join(cases.plane(50.0), cases.box((-.5, -.5, 0), (.5, .5, 10))))
+
+
+def trace(opencl, world, sun, hits, normal=UP, two_sided=0):
+    """Shape (points, slots); all points are of one facet record, the ground's among them."""
+    facets = np.zeros(world.facet_count + 1, records.FACET)
+    facets["normal"], facets["two_sided"] = normal, two_sided
+    arguments = [np.uint32(len(hits)), a_day()[0], world.world[0], world.nodes, world.blocks,
+                 *(world.copy(a) for a in (facets, sun, hits))]
+    words = probe.launch(opencl, opencl.build("sun_history"), (len(hits), WORDS), arguments,
+                         (len(hits), WORDS), np.uint32)
+    return (words[:, :, None] >> np.arange(32) & 1).reshape(len(hits), -1)
+
+
+def times(opencl, lit, nearest, since_min=0.0, met=True):
+    """Hours lit and minutes since the sun came or went; lit: (slots)."""
+    words = np.packbits(lit.reshape(WORDS, 32), bitorder="little").view(np.uint32)
+    hits = points((0, 0, 0), UP)
+    hits["facet"] = 0 if met else NONE
+    arguments = [np.uint32(1), np.uint32(0), a_day(nearest, since_min)[0],
+                 *(probe.copy(opencl, a) for a in (hits, words))]
+    return probe.launch(opencl, opencl.build("sun_times"), 1, arguments, (2,))
+
+
+def test_a_tower_hides_the_sun_while_the_sun_is_behind_it(opencl):
+    lit = trace(opencl, tower(opencl), suns(30.0), points((0, 5.5, 0), UP))[0]
+
+    # Seen from 5 m before its face, a metre of tower spans 5.7 degrees on either side of south;
+    # slots are 3.75 degrees apart, south is slot 48.
+    assert list(np.flatnonzero(lit == 0)) == [47, 48, 49]
+
+
+def test_every_step_is_what_the_sun_of_that_step_alone_tells(opencl):
+    world, sun = tower(opencl), suns(20 + 50 * np.sin(np.arange(SLOTS) / 9))
+    random = np.random.default_rng(3)
+    hits = points(np.c_[random.uniform(-15, 15, (200, 2)), np.zeros(200)], UP)
+
+    lit = trace(opencl, world, sun, hits)
+
+    assert lit.any() and not lit[:, sun[:, 2] > 0].all()
+    for slot in range(SLOTS):
+        assert (lit[:, slot] == world.sunlight(sun[slot, :3], hits)).all()
+
+
+def test_no_sun_shines_at_night_or_on_a_missed_pixel(opencl):
+    hits = points([(20, 20, 0), (20, 20, 0)], UP)
+    hits["facet"][1] = NONE
+    sun = suns(30.0)
+    sun[10, 2] = 0
+
+    lit = trace(opencl, tower(opencl), sun, hits)
+
+    assert lit[0, 10] == 0 and lit[0].sum() == SLOTS - 1 and lit[1].sum() == 0
+
+
+def test_a_facet_seen_from_behind_is_lit_from_its_front(opencl):
+    """The tower's east face, met by a ray from within: its normal is turned towards that ray."""
+    hits = points((.5, 0, 5), (-1, 0, 0))
+
+    lit = trace(opencl, tower(opencl), suns(30.0), hits, normal=(1, 0, 0))[0]
+
+    assert lit[1:48].all() and not lit[49:].any()  # at slots 0 and 48 the sun is edge on
+
+
+def test_a_two_sided_facet_is_lit_from_either_side(opencl):
+    world = RayWorld(opencl, cases.plane(50.0))
+    hits = points((0, 0, 20), (1, 0, 0))  # a sheet in the air, no ray meets it
+
+    one = trace(opencl, world, suns(30.0), hits, normal=(1, 0, 0))[0]
+    two = trace(opencl, world, suns(30.0), hits, normal=(1, 0, 0), two_sided=1)[0]
+
+    assert one[1:48].all() and not one[49:].any()  # at slots 0 and 48 the sun is edge on
+    assert two[1:48].all() and two[49:].all()
+
+
+def test_the_ground_plane_is_never_in_shadow(opencl):
+    world = tower(opencl)
+    world.world["ground_facet"] = world.facet_count
+    hits = points((0, 5.5, 0), UP)
+    hits["facet"] = world.facet_count
+
+    assert trace(opencl, world, suns(30.0), hits)[0].all()
+
+
+def test_lit_steps_add_up_to_hours(opencl):
+    lit = np.zeros(SLOTS, np.uint8)
+    lit[20:60] = 1
+
+    assert times(opencl, lit, nearest=70)[0] == 10.0
+
+
+@pytest.mark.parametrize("nearest, since_min, expected", [
+    (65, 0, 5.5 * 15),      # the sun went between slots 59 and 60
+    (65, 4, 5.5 * 15 + 4),  # and four minutes more have passed
+    (30, -7, 10.5 * 15 - 7),
+    (10, 0, 46.5 * 15)])    # the evening before
+def test_the_sun_came_or_went_midway_between_two_steps(opencl, nearest, since_min, expected):
+    lit = np.zeros(SLOTS, np.uint8)
+    lit[20:60] = 1
+
+    assert times(opencl, lit, nearest, since_min)[1] == expected
+
+
+@pytest.mark.parametrize("value, met", [(0, True), (1, True), (1, False)])
+def test_without_a_change_there_is_no_time_of_it(opencl, value, met):
+    hours, minutes = times(opencl, np.full(SLOTS, value, np.uint8), 5, met=met)
+
+    assert minutes == NO_VALUE
+    assert hours == (24.0 * value if met else NO_VALUE)
