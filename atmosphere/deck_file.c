@@ -47,7 +47,7 @@ status deck_file_read(char **out, const char *path)
     status rc = STATUS_OK;
     card_deck deck;
     char *lines = NULL;
-    int count;
+    int count = 0;
 
     TRY(read_lines(&lines, &count, path));
     rc = card_deck_read(&deck, path);

@@ -11,6 +11,7 @@ static const struct {
     int (*run)(int argc, char **argv);
     const char *purpose;
 } commands[] = {
+    {"make", tool_make, "make the radiance database of a scene"},
     {"deck", tool_deck, "run card decks as they stand"},
 };
 

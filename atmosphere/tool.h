@@ -8,6 +8,7 @@
 #include <getopt.h>
 #include <stddef.h>
 
+int tool_make(int argc, char **argv);
 int tool_deck(int argc, char **argv);
 
 enum { TOOL_USAGE = 2, TOOL_INTERRUPTED = 130, TOOL_HELP = -1 };

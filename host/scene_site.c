@@ -1,3 +1,4 @@
+#include "atmosphere_plan.h"
 #include "scene_parts.h"
 #include "uniform_atmosphere.h"
 #include "weather_synthesis.h"
@@ -132,9 +133,12 @@ void scene_read_atmosphere(scene_reader *reader)
     scene_table t =
         scene_table_open(reader, toml_node_get(reader->root, "atmosphere"), "atmosphere");
     const toml_node *uniform = scene_table_node(&t, "uniform");
+    const toml_node *generate = scene_table_node(&t, "generate");
     const bool stated = scene_table_has(&t, "database");
     const char *path;
+    atmosphere_plan plan;
 
+    if (generate) atmosphere_plan_read(&plan, reader, generate);
     if (uniform && stated)
         scene_fail(reader, uniform, "atmosphere: states both database and uniform, expected one");
     else if (uniform)

@@ -1,0 +1,11 @@
+/* Database header: says in the file what a radiance database is and how it was made. */
+#ifndef DATABASE_HEADER_H
+#define DATABASE_HEADER_H
+
+#include "generation.h"
+#include "recipe.h"
+
+/* Lines that start with '#', each with its line end; the caller frees them. */
+status database_header(char **out, const generation *g, const recipe *r);
+
+#endif

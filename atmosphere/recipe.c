@@ -1,0 +1,458 @@
+#include "recipe.h"
+
+#include "card_deck.h"
+#include "deck_text.h"
+#include "sky_weight.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* What a run gives. */
+typedef enum kind { KIND_SUN, KIND_PATH, KIND_SKY } kind;
+
+typedef struct task {
+    kind gives;
+    int path, zenith, azimuth; /* which of them */
+    int first, last;           /* points of the database, ascending wavelength */
+} task;
+
+struct recipe {
+    atmosphere_plan plan;
+    site place;
+    sun_position sun;
+    const char *profile_cards, *phase_cards;
+    atmosphere *air;
+    size_t count;
+    task *tasks;
+    char **decks, **names;
+};
+
+enum {
+    OWN_PROFILE = 7,
+    TRANSMITTED_SUN = 3,
+    RADIANCE = 2,
+    BETWEEN = 2,
+    TO_SPACE = 3,
+    NAME_SIZE = 64
+};
+
+#define EARTH_RADIUS_KM 6371.23 /* LOWTRAN's */
+#define DEGREE (M_PI / 180.0)
+#define KILOMETRE 1000.0
+#define PER_CM2 1e4 /* W cm-2 to W m-2 */
+#define LOWTRAN_STEP_CM1                                                                           \
+    5.0 /* LOWTRAN samples no finer, and undersamples above (notes of its band
+                                model: 20 cm-1 wide) */
+
+/* Cards hold three decimals. */
+static double card_value(double value)
+{
+    return round(value * 1000.0) / 1000.0;
+}
+
+static double wrap_deg(double angle)
+{
+    return angle - 360.0 * floor((angle + 180.0) / 360.0);
+}
+
+static double sample_step(const recipe *r)
+{
+    return r->plan.thesis ? r->plan.wavenumber_step_cm1 : LOWTRAN_STEP_CM1;
+}
+
+/* Half the width over which runs are averaged. */
+static double half_width(const recipe *r)
+{
+    return r->plan.wavenumber_step_cm1 > sample_step(r) ? r->plan.wavenumber_step_cm1 / 2.0 : 0.0;
+}
+
+static void set_air(const recipe *r, card_deck *deck)
+{
+    const atmosphere_plan *plan = &r->plan;
+
+    deck->model = *r->profile_cards ? OWN_PROFILE : plan->model;
+    if (*r->profile_cards) {
+        for (int i = 0; i < 6; i++) deck->m[i] = plan->model;
+        deck->mdef = 1;
+        deck->im = 1;
+    }
+    deck->noprt = 1;
+    deck->ihaze = plan->aerosol;
+    deck->icstl = 1;
+    deck->vis_km = card_value(plan->visibility_km);
+    deck->gndalt_km = card_value(plan->ground_altitude_m / KILOMETRE);
+}
+
+/* A path that leaves towards an azimuth. */
+static void set_scattering(const recipe *r, card_deck *deck, double azimuth_deg)
+{
+    const atmosphere_plan *plan = &r->plan;
+    const time_t now = (time_t)floor(r->place.time_s);
+    struct tm utc;
+
+    gmtime_r(&now, &utc);
+    deck->iday = utc.tm_yday + 1;
+    deck->iph = (int)plan->phase;
+    deck->g = card_value(plan->asymmetry);
+    deck->tbound_k = plan->thesis ? 300.0 : -1.0;
+    if (plan->thesis) {
+        deck->iparm = 1;
+        deck->parm[0] = card_value(r->place.latitude_deg);
+        deck->parm[1] = card_value(-r->place.longitude_deg);
+        deck->time_h = card_value(utc.tm_hour + (utc.tm_min + utc.tm_sec / 60.0) / 60.0);
+        deck->psipo_deg = card_value(azimuth_deg);
+    } else {
+        deck->iparm = 2;
+        deck->parm[0] = card_value(wrap_deg(r->sun.azimuth_rad / DEGREE - azimuth_deg));
+        deck->parm[1] = card_value(r->sun.zenith_rad / DEGREE);
+    }
+}
+
+/* The run towards the sun; by night towards the zenith, for its profile alone. */
+static void set_sun(const recipe *r, card_deck *deck)
+{
+    set_scattering(r, deck, 0.0);
+    deck->itype = TO_SPACE;
+    deck->iemsct = TRANSMITTED_SUN;
+    deck->tbound_k = 0.0;
+    deck->h1_km = deck->gndalt_km;
+    deck->angle_deg = recipe_is_night(r) ? 0.0 : card_value(r->sun.zenith_rad / DEGREE);
+}
+
+static void set_path(const recipe *r, card_deck *deck, int path)
+{
+    const double ground_km = r->plan.ground_altitude_m / KILOMETRE;
+    const double sensor_km = r->plan.sensor_altitude_m / KILOMETRE;
+    const double zenith_deg = r->plan.path_zenith_first_deg + path * r->plan.path_zenith_step_deg;
+    const double nadir = asin((EARTH_RADIUS_KM + ground_km) / (EARTH_RADIUS_KM + sensor_km) *
+                              sin(zenith_deg * DEGREE));
+
+    set_scattering(r, deck, r->plan.sensor_azimuth_deg + 180.0);
+    deck->itype = BETWEEN;
+    deck->iemsct = RADIANCE;
+    deck->imult = 1;
+    deck->h1_km = card_value(sensor_km);
+    deck->h2_km = card_value(ground_km);
+    deck->angle_deg = card_value(180.0 - nadir / DEGREE);
+}
+
+static void set_sky(const recipe *r, card_deck *deck, const task *t)
+{
+    set_scattering(r, deck, t->azimuth * r->plan.sky_azimuth_step_deg);
+    deck->itype = TO_SPACE;
+    deck->iemsct = RADIANCE;
+    deck->imult = 1;
+    deck->h1_km = deck->gndalt_km;
+    deck->angle_deg = card_value(t->zenith * r->plan.sky_zenith_step_deg);
+}
+
+static double albedo_at(const atmosphere_plan *plan, double wavelength_um)
+{
+    int piece = 0;
+
+    while (piece + 1 < plan->piece_count && wavelength_um >= plan->edge_um[piece]) piece++;
+    return plan->albedo[piece];
+}
+
+static status write_deck(char **out, const recipe *r, const task *t)
+{
+    card_deck deck = {0};
+    const atmosphere *a = r->air;
+
+    set_air(r, &deck);
+    if (t->gives == KIND_SUN) set_sun(r, &deck);
+    if (t->gives == KIND_PATH) set_path(r, &deck, t->path);
+    if (t->gives == KIND_SKY) set_sky(r, &deck, t);
+    if (t->gives != KIND_SUN)
+        deck.salb = r->plan.thesis ? 1.0 : albedo_at(&r->plan, a->wavelength_um[t->first]);
+    deck.v1_cm1 = a->wavenumber_cm1[t->last] - half_width(r);
+    deck.v2_cm1 = a->wavenumber_cm1[t->first] + half_width(r);
+    deck.dv_cm1 = sample_step(r);
+    return deck_text(out, &deck, r->profile_cards, t->gives == KIND_SUN ? "" : r->phase_cards);
+}
+
+static void name_task(char *out, const recipe *r, const task *t, int piece)
+{
+    const double path = r->plan.path_zenith_first_deg + t->path * r->plan.path_zenith_step_deg;
+    int length = 0;
+
+    if (t->gives == KIND_SUN) length = snprintf(out, NAME_SIZE, "sun");
+    if (t->gives == KIND_PATH) length = snprintf(out, NAME_SIZE, "path_%06.3f", path);
+    if (t->gives == KIND_SKY)
+        length =
+            snprintf(out, NAME_SIZE, "sky_%06.3f_%07.3f", t->zenith * r->plan.sky_zenith_step_deg,
+                     t->azimuth * r->plan.sky_azimuth_step_deg);
+    if (r->plan.piece_count > 1) snprintf(out + length, NAME_SIZE - (size_t)length, "_%d", piece);
+}
+
+static status add_task(recipe *r, task t, int piece)
+{
+    status rc = STATUS_OK;
+    char name[NAME_SIZE];
+
+    r->tasks[r->count] = t;
+    TRY(write_deck(&r->decks[r->count], r, &t));
+    name_task(name, r, &t, piece);
+    r->names[r->count] = strdup(name);
+    NEED(r->names[r->count], STATUS_MEMORY, "a deck's name");
+    r->count++;
+out:
+    return rc;
+}
+
+/* At the zenith all azimuths are one direction. */
+static status add_piece(recipe *r, int first, int last, int piece)
+{
+    status rc = STATUS_OK;
+    const atmosphere *a = r->air;
+
+    TRY(add_task(r, (task){.gives = KIND_SUN, .first = first, .last = last}, piece));
+    for (int path = 0; path < a->path_count; path++)
+        TRY(add_task(r, (task){.gives = KIND_PATH, .path = path, .first = first, .last = last},
+                     piece));
+    for (int zenith = 0; zenith < a->zenith_count; zenith++)
+        for (int azimuth = 0; azimuth < (zenith ? a->azimuth_count : 1); azimuth++)
+            TRY(add_task(r, (task){KIND_SKY, 0, zenith, azimuth, first, last}, piece));
+out:
+    return rc;
+}
+
+/* One set of runs for each stretch of the spectrum with one albedo. */
+static status add_pieces(recipe *r)
+{
+    status rc = STATUS_OK;
+    const atmosphere *a = r->air;
+    const size_t most = (size_t)r->plan.piece_count *
+                        (size_t)(1 + a->path_count + a->zenith_count * a->azimuth_count);
+    int first = 0, piece = 1;
+
+    r->tasks = calloc(most, sizeof *r->tasks);
+    r->decks = calloc(most, sizeof *r->decks);
+    r->names = calloc(most, sizeof *r->names);
+    NEED(r->tasks && r->decks && r->names, STATUS_MEMORY, "%zu decks", most);
+    for (int i = 1; i <= a->point_count; i++) {
+        if (i < a->point_count && albedo_at(&r->plan, a->wavelength_um[i]) ==
+                                      albedo_at(&r->plan, a->wavelength_um[first]))
+            continue;
+        TRY(add_piece(r, first, i - 1, piece++));
+        first = i;
+    }
+out:
+    return rc;
+}
+
+static status make_room(atmosphere *a)
+{
+    const size_t n = (size_t)a->point_count, paths = (size_t)a->path_count;
+    const size_t sky = (size_t)(a->zenith_count * a->azimuth_count);
+    double **const arrays[] = {&a->wavelength_um,         &a->wavenumber_cm1,
+                               &a->solar_irradiance,      &a->tau1,
+                               &a->path_range_m,          &a->tau2,
+                               &a->path_emitted,          &a->path_scattered,
+                               &a->sky_emitted,           &a->sky_scattered,
+                               &a->sky_emitted_direction, &a->sky_scattered_direction,
+                               &a->level_altitude_m,      &a->level_temperature_k};
+    const size_t sizes[] = {n,         n, n, n,       paths,   paths * n,      paths * n,
+                            paths * n, n, n, sky * n, sky * n, LOWTRAN_LEVELS, LOWTRAN_LEVELS};
+
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        *arrays[i] = calloc(sizes[i], sizeof **arrays[i]);
+        if (!*arrays[i]) return status_set(STATUS_MEMORY, "a radiance database");
+    }
+    return STATUS_OK;
+}
+
+static status make_air(recipe *r)
+{
+    status rc = STATUS_OK;
+    const atmosphere_plan *plan = &r->plan;
+    atmosphere *a = calloc(1, sizeof *a);
+
+    NEED(a, STATUS_MEMORY, "a radiance database");
+    r->air = a;
+    a->sensor_altitude_m = plan->sensor_altitude_m;
+    a->wavenumber_min_cm1 = plan->wavenumber_min_cm1;
+    a->wavenumber_max_cm1 = plan->wavenumber_max_cm1;
+    a->wavenumber_step_cm1 = plan->wavenumber_step_cm1;
+    a->wavelength_min_um = 1e4 / plan->wavenumber_max_cm1;
+    a->wavelength_max_um = 1e4 / plan->wavenumber_min_cm1;
+    a->point_count = 1 + (int)lround((plan->wavenumber_max_cm1 - plan->wavenumber_min_cm1) /
+                                     plan->wavenumber_step_cm1);
+    a->path_zenith_first_deg = plan->path_zenith_first_deg;
+    a->path_zenith_step_deg = plan->path_zenith_step_deg;
+    a->path_zenith_meaningful_deg = plan->path_zenith_last_deg;
+    a->path_count = 1 + (int)lround((plan->path_zenith_last_deg - plan->path_zenith_first_deg) /
+                                    plan->path_zenith_step_deg);
+    a->zenith_step_deg = plan->sky_zenith_step_deg;
+    a->azimuth_step_deg = plan->sky_azimuth_step_deg;
+    a->zenith_count = 1 + (int)lround(90.0 / a->zenith_step_deg);
+    a->azimuth_count = 1 + (int)lround(360.0 / a->azimuth_step_deg);
+    TRY(make_room(a));
+    for (int i = 0; i < a->point_count; i++) {
+        a->wavenumber_cm1[i] = a->wavenumber_max_cm1 - i * a->wavenumber_step_cm1;
+        a->wavelength_um[i] = 1e4 / a->wavenumber_cm1[i];
+    }
+out:
+    return rc;
+}
+
+status recipe_open(recipe **out, const atmosphere_plan *plan, const site *place,
+                   const char *profile_cards, const char *phase_cards)
+{
+    status rc = STATUS_OK;
+    recipe *r = calloc(1, sizeof *r);
+
+    NEED(r, STATUS_MEMORY, "a radiance database");
+    r->plan = *plan;
+    r->place = *place;
+    r->sun = sun_at(place->time_s, place->latitude_deg, place->longitude_deg);
+    r->profile_cards = profile_cards;
+    r->phase_cards = phase_cards;
+    TRY(make_air(r));
+    TRY(add_pieces(r));
+    *out = r;
+    r = NULL;
+out:
+    recipe_free(r);
+    return rc;
+}
+
+void recipe_free(recipe *r)
+{
+    if (!r) return;
+    for (size_t i = 0; r->decks && r->names && i <= r->count; i++) {
+        if (i == r->count) break;
+        free(r->decks[i]);
+        free(r->names[i]);
+    }
+    free(r->decks);
+    free(r->names);
+    free(r->tasks);
+    atmosphere_free(r->air);
+    free(r);
+}
+
+size_t recipe_count(const recipe *r)
+{
+    return r->count;
+}
+
+const char *const *recipe_decks(const recipe *r)
+{
+    return (const char *const *)r->decks;
+}
+
+const char *const *recipe_names(const recipe *r)
+{
+    return (const char *const *)r->names;
+}
+
+sun_position recipe_sun(const recipe *r)
+{
+    return r->sun;
+}
+
+bool recipe_is_night(const recipe *r)
+{
+    return r->sun.zenith_rad >= M_PI / 2.0;
+}
+
+/* Box averages by the trapezoid rule, from a run's spectrum to the points of a task; sums are in
+ * double precision. LOWTRAN's smallest radiances can lie a little below 0. */
+static void average(const recipe *r, const task *t, const float *from, double scale, double *to)
+{
+    const double sample = sample_step(r), half = half_width(r);
+    const int reach = (int)lround(half / sample);
+    const double lowest = r->air->wavenumber_cm1[t->last] - half;
+
+    for (int i = t->first; i <= t->last; i++) {
+        const int centre = (int)lround((r->air->wavenumber_cm1[i] - lowest) / sample);
+        double sum = reach ? 0.0 : (double)from[centre];
+        for (int k = -reach; reach && k <= reach; k++)
+            sum += (double)from[centre + k] * (abs(k) == reach ? .5 : 1.0) / (2.0 * reach);
+        to[i] = fmax(0.0, sum) * scale;
+    }
+}
+
+static void take_sun(recipe *r, const task *t, const lowtran_run *run)
+{
+    atmosphere *a = r->air;
+
+    a->level_count = run->level_count;
+    for (int i = 0; i < run->level_count; i++) {
+        a->level_altitude_m[i] = (double)run->altitude_km[i] * KILOMETRE;
+        a->level_temperature_k[i] = (double)run->temperature_k[i];
+    }
+    if (recipe_is_night(r)) return;
+    average(r, t, run->irradiance, PER_CM2, a->solar_irradiance);
+    average(r, t, run->tau, 1.0, a->tau1);
+}
+
+static void take_path(recipe *r, const task *t, const lowtran_run *run)
+{
+    atmosphere *a = r->air;
+    const size_t first = (size_t)t->path * (size_t)a->point_count;
+
+    a->path_range_m[t->path] = run->range_km * KILOMETRE;
+    average(r, t, run->tau, 1.0, a->tau2 + first);
+    average(r, t, run->emitted, PER_CM2, a->path_emitted + first);
+    if (!recipe_is_night(r)) average(r, t, run->scattered, PER_CM2, a->path_scattered + first);
+}
+
+static void take_sky(recipe *r, const task *t, const lowtran_run *run)
+{
+    atmosphere *a = r->air;
+    const int last = t->zenith ? t->azimuth : a->azimuth_count - 1;
+
+    for (int azimuth = t->azimuth; azimuth <= last; azimuth++) {
+        const size_t first =
+            (size_t)(t->zenith * a->azimuth_count + azimuth) * (size_t)a->point_count;
+        average(r, t, run->emitted, PER_CM2, a->sky_emitted_direction + first);
+        if (!recipe_is_night(r))
+            average(r, t, run->scattered, PER_CM2, a->sky_scattered_direction + first);
+    }
+}
+
+status recipe_take(void *receiver, size_t index, const lowtran_run *run)
+{
+    status rc = STATUS_OK;
+    recipe *r = receiver;
+    const task *t = &r->tasks[index];
+    const double low = r->air->wavenumber_cm1[t->last] - half_width(r);
+    const double high = r->air->wavenumber_cm1[t->first] + half_width(r);
+    const int last = (int)lround((high - low) / sample_step(r));
+
+    NEED(run->point_count == last + 1 && (double)run->wavenumber_cm1[0] == low &&
+             (double)run->wavenumber_cm1[last] == high,
+         STATUS_FORMAT, "%s: LOWTRAN gave %d points, expected %d from %g to %g cm-1",
+         r->names[index], run->point_count, last + 1, low, high);
+    if (t->gives == KIND_SUN) take_sun(r, t, run);
+    if (t->gives == KIND_PATH) take_path(r, t, run);
+    if (t->gives == KIND_SKY) take_sky(r, t, run);
+out:
+    return rc;
+}
+
+status recipe_finish(recipe *r, atmosphere **out)
+{
+    status rc = STATUS_OK;
+    atmosphere *a = r->air;
+    double *weight = malloc((size_t)a->zenith_count * sizeof *weight);
+
+    NEED(weight, STATUS_MEMORY, "the integrated sky");
+    sky_weight(a->zenith_count, r->plan.thesis, weight);
+    for (int i = 0; i < a->point_count; i++) {
+        a->sky_emitted[i] = sky_weight_integrate(a->sky_emitted_direction + i, a->point_count,
+                                                 a->zenith_count, a->azimuth_count, weight);
+        a->sky_scattered[i] = sky_weight_integrate(a->sky_scattered_direction + i, a->point_count,
+                                                   a->zenith_count, a->azimuth_count, weight);
+    }
+    *out = a;
+    r->air = NULL;
+out:
+    free(weight);
+    return rc;
+}

@@ -1,0 +1,113 @@
+#include "database_header.h"
+#include "output_file.h"
+#include "phase_table.h"
+#include "sonde_profile.h"
+#include "tool.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char help[] =
+    "usage: radsig-atmosphere make SCENE.toml -o FILE.rad [--keep-decks FOLDER]\n"
+    "\n"
+    "Makes the radiance database of a scene from its site, time, weather, camera and its table\n"
+    "[atmosphere.generate] with LOWTRAN 7, on all processors. A FILE that ends in .radc is "
+    "written\n"
+    "as the compact container.\n"
+    "\n"
+    "  --keep-decks FOLDER   writes the card deck of each run there\n";
+
+#define THERMAL_FROM_UM 3.0
+
+typedef struct progress {
+    recipe *r;
+    size_t done;
+} progress;
+
+static status take(void *receiver, size_t index, const lowtran_run *run)
+{
+    progress *p = receiver;
+    const status rc = recipe_take(p->r, index, run);
+
+    p->done++;
+    if (isatty(STDERR_FILENO))
+        fprintf(stderr, "\r%zu of %zu runs%s", p->done, recipe_count(p->r),
+                p->done == recipe_count(p->r) ? "\n" : "");
+    return rc;
+}
+
+static status keep_decks(const recipe *r, const char *folder)
+{
+    status rc = STATUS_OK;
+    output_file *file = NULL;
+    char path[4096];
+
+    NEED(mkdir(folder, 0777) == 0 || errno == EEXIST, STATUS_FILE, "%s: %s", folder,
+         strerror(errno));
+    for (size_t i = 0; i < recipe_count(r); i++) {
+        snprintf(path, sizeof path, "%s/%s.cdk", folder, recipe_names(r)[i]);
+        TRY(output_file_open(&file, path));
+        fputs(recipe_decks(r)[i], output_file_stream(file));
+        TRY(output_file_commit(file));
+        output_file_free(file);
+        file = NULL;
+    }
+out:
+    output_file_free(file);
+    return rc;
+}
+
+static void warn_of_night(const generation *g, const recipe *r)
+{
+    const double shortest_um = 1e4 / g->plan.wavenumber_max_cm1;
+
+    if (!recipe_is_night(r) || shortest_um > THERMAL_FROM_UM) return;
+    status_warn("%s: the sun stands %.1f degrees below the horizon: every solar term is 0 and the "
+                "database holds no light below %g um; choose another time, or wavenumbers of "
+                "thermal bands alone",
+                g->s->path, recipe_sun(r).zenith_rad * 180.0 / M_PI - 90.0, THERMAL_FROM_UM);
+}
+
+static status run(const char *scene_path, const tool_options *options)
+{
+    status rc = STATUS_OK;
+    generation *g = NULL;
+    char *profile_cards = NULL, *phase_cards = NULL;
+    progress p = {0};
+    atmosphere *air = NULL;
+
+    TRY(generation_read(&g, scene_path));
+    TRY(sonde_profile_cards(&profile_cards, g));
+    TRY(phase_table_cards(&phase_cards, g->plan.phase_table));
+    TRY(recipe_open(&p.r, &g->plan, &g->s->place, profile_cards, phase_cards));
+    warn_of_night(g, p.r);
+    if (options->keep_decks) TRY(keep_decks(p.r, options->keep_decks));
+    TRY(lowtran_run_decks(recipe_decks(p.r), recipe_names(p.r), recipe_count(p.r), take, &p));
+    TRY(recipe_finish(p.r, &air));
+    TRY(database_header(&air->header, g, p.r));
+    TRY(atmosphere_write(air, options->output));
+out:
+    atmosphere_free(air);
+    recipe_free(p.r);
+    free(phase_cards);
+    free(profile_cards);
+    generation_free(g);
+    return rc;
+}
+
+int tool_make(int argc, char **argv)
+{
+    tool_options options;
+    const int misuse = tool_read(argc, argv, 1, &options);
+
+    if (misuse == TOOL_HELP) fputs(help, stdout);
+    if (misuse) return misuse == TOOL_HELP ? 0 : misuse;
+    if (options.count != 1) return tool_misuse("make", "needs one scene");
+    if (!options.output) return tool_misuse("make", "needs -o FILE.rad");
+    return tool_end("make", run(argv[options.first], &options));
+}
