@@ -12,7 +12,7 @@ typedef struct render_plane {
     image_plane plane; /* its name is the one above */
     bool is_radiance;  /* belongs to the cube; all others to the truth */
     bool is_of_band;
-    uint32_t source; /* of a band: band x BAND_PLANES + plane; else which of TRUTH_PLANES + SUN_PLANES */
+    uint32_t source; /* of a band: band x BAND_PLANES + plane; else which of the others */
 } render_plane;
 
 /* Lists all planes of a scene: the radiances, the planes that do not depend on the band, and those
