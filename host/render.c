@@ -1,6 +1,7 @@
 #include "render.h"
 
 #include "bvh.h"
+#include "incident.h"
 #include "ray_scene.h"
 #include "shape_factor.h"
 #include "spectra.h"
@@ -12,7 +13,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-enum { STAGE_LIMIT = 8 };
+enum { STAGE_LIMIT = 8, TILE_BYTES = 1 << 27, TILE_LEAST = 1 << 10, TILE_MOST = 1 << 16 };
 
 struct render {
     const scene *s;
@@ -20,6 +21,7 @@ struct render {
     ray_scene *rays;
     shape_factor_grid *grid;
     spectra *bands;
+    incident *around; /* exact mode */
     radiometry_record frame;
     camera_record camera;
     size_t facet_count;  /* with the ground's */
@@ -168,6 +170,17 @@ static void set_frame(render *r)
     };
 }
 
+static status open_incident(render *r)
+{
+    status rc = STATUS_OK;
+    const shape_factor_tables tables = {r->facets, temperature_of_facets(r->warmth), r->materials};
+
+    TRY(incident_open(&r->around, r->rays, r->grid, &tables, r->s->shape, &r->frame));
+    end_stage(r, "surroundings of facets");
+out:
+    return rc;
+}
+
 render_look render_stated_look(const scene *s)
 {
     return (render_look){s->camera, s->place.time_s, s->hemisphere_zenith_step_deg,
@@ -210,6 +223,7 @@ status render_open(render **out, const scene *s, device *dev)
     TRY(open_spectra(r));
     set_frame(r);
     TRY(render_change_look(r, &look));
+    if (!s->thesis) TRY(open_incident(r));
     TRY(render_plane_list(&r->planes, &r->plane_count, s, r->bands->centre_um, r->bands->width_um));
     *out = r;
     r = NULL;
@@ -231,6 +245,7 @@ void render_free(render *r)
     device_release(r->facet_ids);
     device_release(r->facets);
     free(r->facet);
+    incident_free(r->around);
     spectra_free(r->bands);
     shape_factor_free(r->grid);
     ray_scene_free(r->rays);
@@ -249,11 +264,22 @@ const render_stage *render_stages(const render *r, size_t *out_count)
     return r->stages;
 }
 
+uint32_t render_tile_limit(const render *r)
+{
+    const uint64_t words = shape_factor_cell_count(r->grid) + 64u +
+                           (r->around ? r->frame.sample_count : 0u) +
+                           (uint64_t)r->s->band_count * BAND_PLANES;
+    const uint64_t limit = ((uint64_t)TILE_BYTES / (words * sizeof(float))) & ~(uint64_t)63;
+
+    return limit < TILE_LEAST ? TILE_LEAST : limit > TILE_MOST ? TILE_MOST : (uint32_t)limit;
+}
+
 /* What one tile holds on the device. */
 typedef struct tile {
     uint32_t first, count;
     shape_factor_points points;
     device_memory lit, history, temperature_k, background, background_hit, background_lit;
+    device_memory incident; /* exact mode: spectra, shape (count, samples) */
     device_memory truth_planes, band_planes;
 } tile;
 
@@ -273,6 +299,8 @@ static status open_tile(tile *t, const render *r, uint32_t first, uint32_t count
     TRY(device_allocate(r->dev, &t->background, n * sizeof(background_record), NULL));
     TRY(device_allocate(r->dev, &t->background_hit, n * sizeof(hit_record), NULL));
     TRY(device_allocate(r->dev, &t->background_lit, n * sizeof(float), NULL));
+    if (r->around)
+        TRY(device_allocate(r->dev, &t->incident, n * r->frame.sample_count * sizeof(float), NULL));
     TRY(device_allocate(r->dev, &t->truth_planes, n * (TRUTH_PLANES + SUN_PLANES) * sizeof(float),
                         NULL));
     TRY(device_allocate(r->dev, &t->band_planes, n * r->s->band_count * BAND_PLANES * sizeof(float),
@@ -285,6 +313,7 @@ static void free_tile(tile *t)
 {
     device_release(t->band_planes);
     device_release(t->truth_planes);
+    device_release(t->incident);
     device_release(t->background_lit);
     device_release(t->background_hit);
     device_release(t->background);
@@ -307,7 +336,8 @@ static status trace_tile(const render *r, const tile *t)
     TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count,
                           t->points.hit));
     TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->points.hit, t->lit));
-    TRY(shape_factor_run(r->grid, r->rays, &tables, NULL, &t->points, t->background));
+    TRY(shape_factor_run(r->grid, r->rays, &tables, r->around ? r->frame.sun : NULL, &t->points,
+                         t->background));
     TRY(device_run(r->dev, "mirror", shape1(t->count), ARG(t->count), ARG(r->camera), ARG(world),
                    ARG(nodes), ARG(blocks), ARG(r->facets), ARG(facet_k), ARG(r->materials),
                    ARG(t->points.hit), ARG(t->background)));
@@ -328,11 +358,23 @@ static status colour_tile(const render *r, const tile *t)
     TRY(device_run(r->dev, "truth", shape1(t->count), ARG(frame), ARG(r->camera), ARG(r->facets),
                    ARG(r->facet_ids), ARG(r->materials), ARG(t->temperature_k), ARG(t->points.hit),
                    ARG(t->background), ARG(t->lit), ARG(t->background_lit), ARG(t->truth_planes)));
+    if (r->around) {
+        const incident_pixels pixels = {
+            .frame = frame,
+            .camera = r->camera,
+            .points = t->points,
+            .background = t->background,
+            .background_lit = t->background_lit,
+            .spectra = r->spectrum_rows,
+            .emissivity = r->emissivity_rows,
+        };
+        TRY(incident_run(r->around, &pixels, t->incident));
+    }
     TRY(device_run(r->dev, "radiometry", shape1(t->count), ARG(frame), ARG(r->camera),
                    ARG(r->facets), ARG(r->materials), ARG(t->temperature_k), ARG(t->points.hit),
                    ARG(t->background), ARG(t->lit), ARG(t->background_lit), ARG(r->spectrum_rows),
-                   ARG(r->emissivity_rows), ARG(r->band_records), ARG(r->ln_radiance),
-                   ARG(t->band_planes)));
+                   ARG(r->emissivity_rows), ARG(t->incident), ARG(r->band_records),
+                   ARG(r->ln_radiance), ARG(t->band_planes)));
 out:
     return rc;
 }

@@ -21,6 +21,9 @@ void render_free(render *r);
 /* The planes of the scene, radiances first; they belong to the render. */
 const render_plane *render_planes(const render *r, size_t *out_count);
 
+/* The most pixels that a tile should hold: what they need on the device stays below 128 MiB. */
+uint32_t render_tile_limit(const render *r);
+
 /* Computes pixels first_pixel .. first_pixel + pixel_count - 1, counted along the rows. The values
  * do not depend on how the image is cut into tiles.
  *   values   shape (plane count): the whole plane, shape (rows, columns), or NULL: not wanted

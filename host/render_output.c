@@ -9,8 +9,8 @@
 #include <string.h>
 #include <time.h>
 
-/* Pixels of a tile; a device without room for it gets smaller ones, down to the least. */
-enum { TILE_MOST = 1 << 16, TILE_LEAST = 1 << 10 };
+/* A device without room for a tile gets smaller ones, down to this many pixels. */
+enum { TILE_LEAST = 1 << 8 };
 
 typedef struct writing {
     const scene *s;
@@ -133,7 +133,7 @@ static status render_pixels(writing *w)
 {
     status rc = STATUS_OK;
     const uint64_t all = (uint64_t)w->s->camera.columns * (uint64_t)w->s->camera.rows;
-    uint32_t most = TILE_MOST;
+    uint32_t most = render_tile_limit(w->r);
 
     for (uint64_t done = 0; done < all;) {
         const uint32_t count = all - done < most ? (uint32_t)(all - done) : most;

@@ -31,37 +31,68 @@ static incident_facet see_facet(around from, radiometry_record frame, uint facet
     return out;
 }
 
+/* The hemisphere of a diffuse surface: axes of its cells, and factors of the weights of cells above
+ * and below the horizon, which give both their exact shares, (1 + cos slope) / 2 of it the sky's. */
+typedef struct diffuse_view {
+    hemisphere_frame axes;
+    float above, below;
+    float seen; /* of the cells above the horizon, the share that sees the sky */
+} diffuse_view;
+
+static float cell_direction(const hemisphere_frame *axes, global const float *cell, uint c,
+                            float *out)
+{
+    float in_frame[4];
+
+    vstore4(vload4(c, cell), 0, in_frame);
+    hemisphere_direction(axes, in_frame, out);
+    return in_frame[3];
+}
+
+static diffuse_view look_around(const float *normal, uint cell_count, global const float *cell,
+                                global const uint *met, uint stride)
+{
+    diffuse_view view = {.axes = hemisphere_frame_of(normal)};
+    const float share = 0.5f * (1.0f + normal[2]);
+    float above = 0.0f, seen = 0.0f, direction[3];
+
+    for (uint c = 0; c < cell_count; c++) {
+        const float weight = cell_direction(&view.axes, cell, c, direction);
+        if (direction[2] <= 0.0f) continue;
+        above += weight;
+        seen += met[(size_t)c * stride] == RECORD_NONE ? weight : 0.0f;
+    }
+    const uint has_both = above > 1e-6f && above < 1.0f - 1e-6f;
+    view.above = has_both ? share / above : 1.0f;
+    view.below = has_both ? (1.0f - share) / (1.0f - above) : 1.0f;
+    view.seen = above > 0.0f ? seen / above : 0.0f;
+    return view;
+}
+
 /* Weights of the sky's directions for a diffuse surface. The cells that see the sky count what they
- * weigh; what the cells above the horizon miss of the open sky's exact integral is added by the
- * share of the sky that is seen.
+ * weigh; what the cells above the horizon miss of the open sky's integral is added by the share of
+ * the sky that is seen.
  *   dome   (dome_count, 8): direction, solid angle, and its place in the table: rows and shares of
  *          zenith and azimuth */
-static void count_sky(float *weights, radiometry_record frame, const float *normal, uint cell_count,
-                      global const float *cell, global const uint *met, uint stride,
-                      uint dome_count, global const float *dome)
+static void count_sky(float *weights, radiometry_record frame, const float *normal,
+                      diffuse_view view, uint cell_count, global const float *cell,
+                      global const uint *met, uint stride, uint dome_count,
+                      global const float *dome)
 {
-    const hemisphere_frame axes = hemisphere_frame_of(normal);
-    float seen = 0.0f, above = 0.0f, open = 0.0f, direction[3], in_frame[4];
+    float open = 0.0f, exact = 0.0f, direction[3];
 
-    for (uint pass = 0; pass < 2u; pass++)
-        for (uint c = 0; c < cell_count; c++) {
-            const uint is_seen = met[(size_t)c * stride] == RECORD_NONE;
-            vstore4(vload4(c, cell), 0, in_frame);
-            hemisphere_direction(&axes, in_frame, direction);
-            const uint is_above = direction[2] > 0.0f;
-            const float exchange = above > 0.0f ? seen / above : 0.0f;
-            const float weight =
-                in_frame[3] * ((is_seen ? 1.0f : 0.0f) - (is_above ? exchange : 0.0f));
-            if (pass == 0u) {
-                above += is_above ? in_frame[3] : 0.0f;
-                seen += is_above && is_seen ? in_frame[3] : 0.0f;
-            } else if (weight != 0.0f) {
-                incident_add_sky(weights, frame,
-                                 sky_find(frame, direction[0], direction[1], direction[2]), weight);
-            }
-        }
-    if (seen <= 0.0f) return;
-    for (uint pass = 0; pass < 2u; pass++)
+    for (uint c = 0; c < cell_count; c++) {
+        const float of_cell = cell_direction(&view.axes, cell, c, direction);
+        const uint is_above = direction[2] > 0.0f;
+        const float sees = met[(size_t)c * stride] == RECORD_NONE ? 1.0f : 0.0f;
+        const float weight =
+            of_cell * (is_above ? view.above * (sees - view.seen) : view.below * sees);
+        exact += is_above ? of_cell * view.above : 0.0f;
+        if (weight != 0.0f)
+            incident_add_sky(weights, frame,
+                             sky_find(frame, direction[0], direction[1], direction[2]), weight);
+    }
+    for (uint pass = 0; pass < 2u && view.seen > 0.0f; pass++)
         for (uint d = 0; d < dome_count; d++) {
             const float8 at = vload8(d, dome);
             const float facing =
@@ -74,7 +105,7 @@ static void count_sky(float *weights, radiometry_record frame, const float *norm
                 const uint right = min(left + 1u, frame.azimuth_count - 1u);
                 incident_add_sky(weights, frame,
                                  (sky_lookup){{low, high, at.s5}, {left, right, at.s7}},
-                                 facing * seen / open);
+                                 facing / open * exact * view.seen);
             }
         }
 }
@@ -142,15 +173,15 @@ kernel void incident(const radiometry_record frame, const camera_record camera,
     const background_record mirrored = background[pixel];
     const uint kind = pixel_interaction(materials[facets[at.facet].material], mirrored);
     const uint rays = kind == INTERACTION_DIFFUSE ? cell_count : 0u;
-    const hemisphere_frame axes = hemisphere_frame_of(at.normal);
+    const diffuse_view view = look_around(at.normal, rays, cell, met + pixel, frame.pixel_count);
     global float *row = out + (size_t)pixel * frame.sample_count;
-    float weights[INCIDENT_DIRECTIONS], direction[3], in_frame[4];
+    float weights[INCIDENT_DIRECTIONS], direction[3];
     incident_facet seen[ROUND];
     uint count = 0;
 
     for (uint d = 0; d < frame.zenith_count * frame.azimuth_count; d++) weights[d] = 0.0f;
     if (kind == INTERACTION_DIFFUSE) {
-        count_sky(weights, frame, at.normal, cell_count, cell, met + pixel, frame.pixel_count,
+        count_sky(weights, frame, at.normal, view, cell_count, cell, met + pixel, frame.pixel_count,
                   dome_count, dome);
     } else {
         float ray[3];
@@ -168,9 +199,9 @@ kernel void incident(const radiometry_record frame, const camera_record camera,
     for (uint c = 0; c < rays; c++) {
         const uint word = met[(size_t)c * frame.pixel_count + pixel];
         if (word == RECORD_NONE) continue;
-        vstore4(vload4(c, cell), 0, in_frame);
-        hemisphere_direction(&axes, in_frame, direction);
-        seen[count++] = see_facet(from, frame, word & ~HEMISPHERE_LIT, in_frame[3],
+        const float weight = cell_direction(&view.axes, cell, c, direction);
+        seen[count++] = see_facet(from, frame, word & ~HEMISPHERE_LIT,
+                                  weight * (direction[2] > 0.0f ? view.above : view.below),
                                   word & HEMISPHERE_LIT ? 1.0f : 0.0f, direction);
         if (count < ROUND) continue;
         add_facets(seen, count, frame, spectra, emissivity, row);

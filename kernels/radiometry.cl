@@ -6,6 +6,7 @@
 typedef struct spectra_tables {
     global const float *rows;       /* shape (rows, sample_count): SPECTRA_... of records.h */
     global const float *emissivity; /* shape (rows, sample_count) */
+    global const float *incident;   /* of this pixel: shape (sample_count); NULL: thesis mode */
 } spectra_tables;
 
 static spectrum load_row(spectra_tables tables, radiometry_record frame, uint row, uint block)
@@ -34,7 +35,7 @@ static spectrum block_radiance(const pixel_state *pixel, spectra_tables tables,
     spectrum sky = (spectrum)0.0f, background = (spectrum)0.0f;
 
     *emissivity_sum += weight * emissivity;
-    if (pixel->shape_factor > 0.0f)
+    if (pixel->shape_factor > 0.0f && !tables.incident)
         sky = pixel->interaction == INTERACTION_DIFFUSE
                   ? load_row(tables, frame, SPECTRA_SKY, block)
                   : sky_radiance(sky_rows(tables, frame), frame, pixel->sky, block);
@@ -46,10 +47,11 @@ static spectrum block_radiance(const pixel_state *pixel, spectra_tables tables,
             e, planck_radiance(first, second, pixel->background_temperature_k),
             sun_on_surface(sun, pixel->background_sunlit, pixel->background_sun_cosine));
     }
-    const spectrum surface =
-        surface_radiance(emissivity, planck_radiance(first, second, pixel->temperature_k),
-                         sun_on_surface(sun, pixel->sunlit, pixel->sun_cosine),
-                         radiance_from_above(pixel->shape_factor, sky, background));
+    const spectrum surface = surface_radiance(
+        emissivity, planck_radiance(first, second, pixel->temperature_k),
+        sun_on_surface(sun, pixel->sunlit, pixel->sun_cosine),
+        tables.incident ? spectrum_load(tables.incident, block)
+                        : radiance_from_above(pixel->shape_factor, sky, background));
     global const float *paths = tables.rows + (size_t)SPECTRA_PATHS * row;
     return sensor_radiance(
         surface, lookup_spectrum(paths, row, pixel->path, block),
@@ -86,6 +88,8 @@ static pixel_state pixel_look(radiometry_record frame, camera_record camera, uin
  * facets: per facet, the ground's behind the real ones; materials: material_record
  * temperature_k, hit, background, sunlit, background_sunlit: per pixel
  * spectra: shape (rows, sample_count), see SPECTRA_...; emissivity: shape (rows, sample_count)
+ * incident: shape (pixel_count, sample_count), see incident.cl; NULL in thesis mode, which takes
+ *   the mean background instead
  * bands: band_record; ln_radiance: shape (band_count, BAND_TEMPERATURES)
  * planes: shape (band_count, BAND_PLANES, pixel_count): radiance W m-2 sr-1 (or its mean per um),
  *   counts, apparent temperature C, emissivity, background emissivity; NO_VALUE where there is none */
@@ -94,13 +98,15 @@ kernel void radiometry(const radiometry_record frame, const camera_record camera
                        global const float *temperature_k, global const hit_record *hit,
                        global const background_record *background, global const float *sunlit,
                        global const float *background_sunlit, global const float *spectra,
-                       global const float *emissivity, global const band_record *bands,
-                       global const float *ln_radiance, global float *planes)
+                       global const float *emissivity, global const float *incident,
+                       global const band_record *bands, global const float *ln_radiance,
+                       global float *planes)
 {
     const uint pixel = get_global_id(0);
     if (pixel >= frame.pixel_count) return;
 
-    const spectra_tables tables = {spectra, emissivity};
+    const spectra_tables tables = {
+        spectra, emissivity, frame.thesis ? 0 : incident + (size_t)pixel * frame.sample_count};
     const pixel_state state =
         pixel_look(frame, camera, pixel, hit[pixel], background[pixel], sunlit[pixel],
                    background_sunlit[pixel], facets, materials, temperature_k[pixel]);

@@ -90,8 +90,10 @@ class Reference:
         behind, e_b = (0.0, None) if b["facet"] == NONE else self.background(pixel)
         cosine = max(0.0, normal @ self.frame["sun"].astype(np.float64))
         sun = self.rows[records.SUN] / np.pi * float(case.sunlit[pixel]) * cosine
-        leaving = (e * planck(self.wavelength_um, float(case.temperature_k[pixel]))
-                   + (sun + share * sky + (1 - share) * behind) * (1 - e))
+        above = share * sky + (1 - share) * behind
+        if not self.frame["thesis"]:  # exact mode takes what incident.cl made
+            above = case.incident[pixel].astype(np.float64)
+        leaving = e * planck(self.wavelength_um, float(case.pixel_k[pixel])) + (sun + above) * (1 - e)
         zenith = (angle_deg(-ray[2]) - self.frame["path_zenith_first_deg"])
         place = zenith / self.frame["path_zenith_step_deg"]
         return kind, leaving * between(self.tau2, place) + between(self.path, place), e, e_b
@@ -158,6 +160,7 @@ class Case:
         self.materials["number"] = [3, 14, 15, 92, 65, 35]
         self.facets = np.zeros(40, records.FACET)
         self.facets["material"] = self.random.integers(0, 6, 40)
+        self.temperature_k = self.random.uniform(240, 340, 40).astype(np.float32)
         table = []
         for angles in self.materials["emissivity_angles"]:  # falls off towards grazing angles
             at_normal = self.random.uniform(0.1, 1.0, len(self.weight))
@@ -199,4 +202,5 @@ class Case:
         towards = (behind * (self.hit["point"] - b["point"])).sum(1)
         b["normal"] = behind * np.sign(towards)[:, None]
         self.sunlit, self.background_sunlit = random.random((2, n)).astype(np.float32)
-        self.temperature_k = random.uniform(240, 340, n).astype(np.float32)
+        self.pixel_k = random.uniform(240, 340, n).astype(np.float32)
+        self.incident = random.uniform(0.5, 9, (n, len(self.weight))).astype(np.float32)

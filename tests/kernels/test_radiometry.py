@@ -32,9 +32,9 @@ def run(opencl, case, options=""):
     for band in case.bands:
         at = slice(band["first_sample"], band["first_sample"] + band["sample_count"])
         tables.append(ln_table(case.wavelength_um[at], case.weight[at])[1])
-    arrays = [case.facets, case.materials, case.temperature_k, case.hit, case.background,
-              case.sunlit, case.background_sunlit, case.spectra, case.emissivity, case.bands,
-              np.array(tables, np.float32)]
+    arrays = [case.facets, case.materials, case.pixel_k, case.hit, case.background,
+              case.sunlit, case.background_sunlit, case.spectra, case.emissivity, case.incident,
+              case.bands, np.array(tables, np.float32)]
     arguments = [case.frame[0], case.camera[0], *(probe.copy(opencl, a) for a in arrays)]
     shape = (len(case.bands), records.BAND_PLANES, len(case.hit))
     return probe.launch(opencl, opencl.build("radiometry", options), len(case.hit), arguments, shape)
@@ -103,7 +103,7 @@ def test_pixels_do_not_depend_on_tiles(opencl):
     part.frame = case.frame.copy()
     part.frame["first_pixel"] += 37
     part.frame["pixel_count"] = 30
-    for name in ("temperature_k", "hit", "background", "sunlit", "background_sunlit"):
+    for name in ("hit", "background", "sunlit", "background_sunlit", "pixel_k", "incident"):
         setattr(part, name, getattr(case, name)[37:67])
 
     assert run(opencl, part).tobytes() == np.ascontiguousarray(whole[:, :, 37:67]).tobytes()
@@ -161,7 +161,8 @@ def black_plane(low_um, high_um, temperature_k):
     case.facets["material"] = 0
     case.hit["facet"], case.hit["normal"] = 0, (0, 0, 1)
     case.background["facet"] = records.NONE
-    case.temperature_k[:] = temperature_k
+    case.pixel_k[:] = temperature_k
+    case.incident = np.full((1, len(case.weight)), 7, np.float32)
     case.emissivity = np.ones((1, len(case.weight)), np.float32)
     flat = np.ones(len(case.weight))
     case.spectra = np.array([

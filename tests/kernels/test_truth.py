@@ -34,8 +34,9 @@ def run(opencl, hit, background, sunlit, background_sunlit, *, columns=8, first=
     frame, camera = look_down(columns)
     frame["first_pixel"], frame["pixel_count"] = first, len(hit)
     facets, ids, materials, facet_k = scene()
-    pixel_k = facet_k[np.minimum(hit["facet"], GROUND)]
-    arrays = [facets, ids, materials, pixel_k, hit, background, np.float32(sunlit), np.float32(background_sunlit)]
+    kelvin = np.where(hit["facet"] == NONE, 0, facet_k[hit["facet"] % len(facet_k)])
+    arrays = [facets, ids, materials, kelvin.astype(np.float32), hit, background,
+              np.float32(sunlit), np.float32(background_sunlit)]
     arguments = [frame[0], camera[0], *(probe.copy(opencl, a) for a in arrays)]
     planes = probe.launch(opencl, opencl.build("truth"), 64, arguments,
                           (records.TRUTH_PLANES, len(hit)))
