@@ -153,7 +153,8 @@ class Database:
 
     def grid(self, low_um, high_um):
         """Wavelengths of the band, ascending, and the database's points as a function on them."""
-        wavenumber = np.linspace(1e4 / low_um, 1e4 / high_um, int((1e4 / low_um - 1e4 / high_um) * 100))
+        high, low = 1e4 / low_um, 1e4 / high_um
+        wavenumber = np.linspace(high, low, int((high - low) * 100))
         order = self.wavenumber_cm1[::-1]
 
         def look_up(values):
@@ -201,8 +202,8 @@ def pixel_directions(position_m, target_m, focal_length_mm, pixels):
 def program():
     """The helpers of this file, and the path of the program."""
     return types.SimpleNamespace(
-        path=RADSIG, root=ROOT, airport=AIRPORT, scene=SCENE, plane=PLANE, vacuum=VACUUM, run=radsig,
-        write_scene=write_scene, render=render, load=load)
+        path=RADSIG, root=ROOT, airport=AIRPORT, scene=SCENE, plane=PLANE, vacuum=VACUUM,
+        run=radsig, write_scene=write_scene, render=render, load=load)
 
 
 @pytest.fixture(scope="session")

@@ -91,8 +91,8 @@ def test_the_scenes_to_be_broken_are_right(program, folder, text):
 def test_a_summary_names_units(program, folder):
     summary = check(program, folder, WITH_WEATHER).stdout
 
-    for words in ("latitude 40.000000 deg", "east-positive", "10000 m2", "z 0 to 0 m", "every 15 min",
-                  "20.0 to 20.0 C", "W/m2", "lens 85 mm", "60 m from its target", "8 to 14 um",
+    for words in ("latitude 40.000000 deg", "east-positive", "10000 m2", "z 0 to 0 m",
+                  "every 15 min", "20.0 to 20.0 C", "W/m2", "lens 85 mm", "60 m from its target", "8 to 14 um",
                   "gain 1 per W m-2 sr-1"):
         assert words in summary
 
@@ -105,7 +105,8 @@ def test_a_summary_names_units(program, folder):
     ("transmission = 1", "transmission = 1.2", "uniform", "from 0 to 1"),
     ('"plane.obj"', '"absent.obj"', "absent.obj", "absent.obj: No such file"),
     ('"some.mat"', '"absent.mat"', "absent.mat", "absent.mat: No such file"),
-    ("focal_length_mm = 85", 'focal_length_mm = "long"', "focal_length_mm", "expected a finite number"),
+    ("focal_length_mm = 85", 'focal_length_mm = "long"', "focal_length_mm",
+     "expected a finite number"),
     ("pixels = [16, 12]", "pixels = [16]", "pixels", "expected 2 numbers"),
     ("pixels = [16, 12]", "pixels = [16, 12.5]", "pixels", "expected whole numbers"),
     ("pixels = [16, 12]", "pixels = [16, 0]", "pixels", "from 1 to"),
@@ -143,8 +144,8 @@ def test_a_missing_table_is_named(program, folder, table):
 def test_two_errors_in_one_file_are_both_reported(program, folder):
     text = GOOD.replace("latitude_deg = 40.0", "latitude_deg = 140.0").replace("[16, 12]", "[16]")
 
-    assert_refused(program, folder, text,
-                   f"scene.toml:{line_of(text, 'latitude')}: ", f"scene.toml:{line_of(text, 'pixels')}: ")
+    assert_refused(program, folder, text, f"scene.toml:{line_of(text, 'latitude')}: ",
+                   f"scene.toml:{line_of(text, 'pixels')}: ")
 
 
 def test_errors_of_several_files_are_all_reported(program, folder):
@@ -158,7 +159,8 @@ def test_errors_of_several_files_are_all_reported(program, folder):
 def test_a_material_of_the_mesh_that_nobody_states_is_named(program, folder):
     (folder / "bad.obj").write_text(PLANE.replace("usemtl wall", "usemtl velvet"))
 
-    assert_refused(program, folder, GOOD.replace("plane.obj", "bad.obj"), 'bad.obj: material "velvet"')
+    assert_refused(program, folder, GOOD.replace("plane.obj", "bad.obj"),
+                   'bad.obj: material "velvet"')
 
 
 @pytest.mark.parametrize("face, words", [("f 1 2 3 5", "bad.obj:6: "), ("f 1 2 x", "bad.obj:6: "),
@@ -224,11 +226,23 @@ def test_a_band_outside_the_database_is_reported_at_its_table(program, folder):
     assert_refused(program, folder, text, f"scene.toml:{line_of(text, '[[band]]')}: ", "3 to 5 um")
 
 
+def test_a_sensor_file_of_another_database_is_reported_at_its_band(program, folder):
+    (folder / "short.sen").write_text("26\n1.0\n0.0\n" + "1.0\n" * 26)  # the database has 27
+    text = WITH_DATABASE.replace("wavelength_um = [8.0, 13.0]", 'sensor = "short.sen"')
+
+    assert_refused(program, folder, text, f"scene.toml:{line_of(text, '[[band]]')}: ", "26 responses",
+                   "27 points")
+
+
 def test_facets_without_thickness_are_an_error_for_therm(program, folder):
-    text = WITH_WEATHER.replace('"fixed"', '"therm"').replace("emissivity = 0.9", """emissivity = 0.9
+    text = WITH_WEATHER.replace('"fixed"', '"therm"') + """[[material]]
+name = "wall"
+emissivity = 0.9
 density_kg_m3 = 2000
 specific_heat_j_kg_k = 900
-conductivity_w_m_k = 1""")
+conductivity_w_m_k = 1
+"""
+    text = text.replace(GOOD[GOOD.index("[[material]]"):], "")
 
     assert_refused(program, folder, text, "wall has no thickness", "thickness_cm")
 
@@ -243,7 +257,8 @@ def test_facets_without_a_temperature_are_an_error_for_fixed(program, folder):
 
 
 @pytest.mark.parametrize("setting, words", [
-    ("site.latitude_deg=140", "from -90 to 90"), ("site.latitude_deg=", "--set: site.latitude_deg: "),
+    ("site.latitude_deg=140", "from -90 to 90"),
+    ("site.latitude_deg=", "--set: site.latitude_deg: "),
     ("camera.lens=3", "unknown key"), ("camera.pixels=[1", "--set camera.pixels=[1"),
 ])
 def test_a_bad_setting_is_an_error_that_names_it(program, folder, setting, words):

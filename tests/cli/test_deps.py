@@ -34,7 +34,8 @@ cat "$STAND_IN/uid"
 
 def packages(root):
     """The names that the Makefile lists in PACKAGES."""
-    text = re.search(r"^PACKAGES := ((?:.*\\\n)*.*)", (root / "Makefile").read_text(), re.M).group(1)
+    text = (root / "Makefile").read_text()
+    text = re.search(r"^PACKAGES := ((?:.*\\\n)*.*)", text, re.M).group(1)
     return text.replace("\\\n", " ").split()
 
 
@@ -43,7 +44,8 @@ def make_deps(program, tmp_path):
     """Runs make deps in a folder that holds the Makefile alone."""
     stand_in = tmp_path / "bin"
     stand_in.mkdir()
-    for name, text in (("dpkg-query", DPKG_QUERY), ("apt-get", APT_GET), ("sudo", SUDO), ("id", ID)):
+    for name, text in (("dpkg-query", DPKG_QUERY), ("apt-get", APT_GET), ("sudo", SUDO),
+                       ("id", ID)):
         (stand_in / name).write_text(text)
         (stand_in / name).chmod(0o755)
     shutil.copy(program.root / "Makefile", tmp_path)

@@ -54,7 +54,7 @@ def test_a_missed_ray_sees_the_sky_of_its_direction(program, radiance, database,
 
 
 def turning_sky():
-    """A database, as text, whose sky is flat in wavelength: zenith i x 15 and azimuth k x 30 degrees
+    """A database, as text, whose sky is flat in wavelength: zenith i x 15, azimuth k x 30 degrees
     give 1 + i + k/16 W m-2 sr-1 um-1 (k 12 is k 0)."""
     points = 3
     lines = ["1.0", "7.936508", "13.513514", "740.0", "1260.0", "260.0", f"{points}"]
@@ -65,7 +65,8 @@ def turning_sky():
     lines += ["1e-4 0.0"] * points
     for i in range(7):
         for k in range(13):
-            lines += [f"{15 * i}.0 {30 * k}.0"] + [f"{1e-4 * (1 + i + k % 12 / 16):.9e} 0.0"] * points
+            radiance_w_cm2 = 1e-4 * (1 + i + k % 12 / 16)
+            lines += [f"{15 * i}.0 {30 * k}.0"] + [f"{radiance_w_cm2:.9e} 0.0"] * points
     return "\n".join([*lines, "1", "0.0 290.0"]) + "\n"
 
 
@@ -163,12 +164,13 @@ def mirrored_wall(program, tmp_path_factory):
     return program.render(
         tmp_path_factory.mktemp("mirror"), meshes={"plane.obj": LEVEL, "screen.obj": SCREEN},
         geometry=[{"file": "plane.obj"}, {"file": "screen.obj"}], material=MIRROR,
+        render={"mode": "thesis"},
         camera={"position_m": [-30.0, 0.0, 30.0], "focal_length_mm": 400.0, "pixels": [4, 4]})
 
 
 def test_a_mirror_shows_the_wall_that_the_mirrored_ray_meets(mirrored_wall, radiance):
     planes = mirrored_wall.planes
-    wall = 0.9 * radiance.band_planck(8, 14, 320)  # 1 K sky, no sun: it reflects nothing
+    wall = 0.9 * radiance.band_planck(8, 14, 320)  # eq. 2.4-1 without sun: it reflects nothing
 
     assert (planes["interaction"] == 3).all() and (planes["shape_factor"] == 0).all()
     assert planes["background_temperature_c"] == pytest.approx(46.85, abs=1e-3)
@@ -259,9 +261,9 @@ def test_the_picture_without_its_path_is_as_warm_as_the_surfaces(airfield, radia
     assert np.ptp(zenith_deg) < 0.6  # one path for all: its radiance changes by less than .5 %
     tau2, path = (look_up(values) for values in database.path_at(middle))
     at_sensor_of = [np.trapz(b * tau2 + path, wavelength) for b in black]
-    found_c = np.interp(airfield.planes["radiance_lwir"][dark], at_sensor_of, temperature_k) - 273.15
+    found_k = np.interp(airfield.planes["radiance_lwir"][dark], at_sensor_of, temperature_k)
 
-    assert found_c == pytest.approx(airfield.planes["temperature_c"][dark], abs=3)
+    assert found_k == pytest.approx(airfield.planes["temperature_c"][dark] + 273.15, abs=3)
 
 
 def facet_normals(path):

@@ -23,7 +23,8 @@ def test_help_lists_every_command(program):
 
 
 def test_the_version_is_the_makefile_s(program):
-    version = re.search(r"^VERSION := (.*)$", (program.root / "Makefile").read_text(), re.M).group(1)
+    makefile = (program.root / "Makefile").read_text()
+    version = re.search(r"^VERSION := (.*)$", makefile, re.M).group(1)
 
     done = program.run("--version")
 
@@ -93,7 +94,9 @@ def test_wrong_usage_of_check_ends_with_2(program, arguments):
 ])
 def test_a_value_that_the_scene_refuses_ends_with_1_and_leaves_nothing(program, tmp_path, option,
                                                                         value, words):
-    done = program.run("render", program.write_scene(tmp_path), "-o", tmp_path / "out", option, value)
+    scene = program.write_scene(tmp_path)
+
+    done = program.run("render", scene, "-o", tmp_path / "out", option, value)
 
     assert done.returncode == 1 and words in done.stderr
     assert not (tmp_path / "out").exists()
