@@ -40,10 +40,10 @@ static const char tiny[] =
     "[render]\n"
     "thermal = \"fixed\"\n";
 
-/* Two level squares of grass, the larger at z = 3, and a wall. */
+/* Level grass, the largest facet of it at z = 3 and not the last, and a wall. */
 static const char mesh[] =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 3\nv 5 0 3\nv 5 5 3\nv 0 5 3\n"
-    "usemtl grass\nf 1 2 3 4\nf 5 6 7 8\nusemtl wall\nf 1 2 6 5\n";
+    "usemtl grass\nf 1 2 3 4\nf 5 6 7 8\nusemtl wall\nf 1 2 6 5\nusemtl grass\nf 2 3 4\n";
 /* Appendix A item 10: specific heat, conductivity, density, specularity, emissivities, exposed area. */
 static const char library[] = "2\nsteel\n41\n.1\n400\n7.8\n1.0\n.6\n.3\n.5\nflat.ems\nnull\n"
                               "grass\n4\n.5\n5\n1.0\n0.0\n.7\n.95\n-.3\nflat.ems\nnull\n";
@@ -245,7 +245,7 @@ static void a_gdb_s_material_goes_by_its_code(void **state)
 
 static void a_facet_takes_the_temperature_of_its_material(void **state)
 {
-    facet_record records[4];
+    facet_record records[5];
 
     (void)state;
     scene *s = read_scene(write_scene(NULL));
@@ -260,15 +260,15 @@ static void a_facet_takes_the_temperature_of_its_material(void **state)
 
 static void the_ground_goes_on_from_the_largest_level_facet_of_its_material(void **state)
 {
-    facet_record records[4];
+    facet_record records[5];
 
     (void)state;
     scene *s = read_scene(write_scene(NULL));
     scene_facet_records(s, records);
     assert_near(s->ground_z_m, 3.0, 1e-6);
-    assert_int_equal(records[3].material, s->ground_material);
-    assert_near((double)records[3].stated_temperature_k, 290.0, 0.0);
-    assert_near((double)records[3].normal[2], 1.0, 0.0);
+    assert_int_equal(records[4].material, s->ground_material);
+    assert_near((double)records[4].stated_temperature_k, 290.0, 0.0);
+    assert_near((double)records[4].normal[2], 1.0, 0.0);
     scene_free(s);
 }
 
