@@ -142,18 +142,14 @@ static status compute(const facet_record *facet, const material_record *matter, 
                       const site *place, float *out_temperature_k)
 {
     status rc = STATUS_OK;
-    const thermal_subject subject = {.facet = facet, .count = 1};
     device *dev = NULL;
-    device_memory materials = NULL;
     thermal *t = NULL;
 
     TRY(device_open(&dev, -1));
-    TRY(device_allocate(dev, &materials, sizeof *matter, matter));
-    TRY(thermal_open(&t, dev, materials, w, place));
-    TRY(thermal_history(t, &subject, out_temperature_k));
+    TRY(thermal_open(&t, dev, matter, 1, w, place));
+    TRY(thermal_history(t, facet, out_temperature_k));
 out:
     thermal_free(t);
-    device_release(materials);
     device_free(dev);
     return rc;
 }

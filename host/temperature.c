@@ -29,7 +29,20 @@ static status open_sun_history(temperature *t, const scene *s)
                             w->interval_s);
 }
 
-static status warm_facets(temperature *t, const scene *s, device_memory materials)
+static status open_model(temperature *t, const scene *s)
+{
+    status rc = STATUS_OK;
+    material_record *material = malloc((s->material_count + 1) * sizeof *material);
+
+    NEED(material, STATUS_MEMORY, "no memory for %u materials", s->material_count);
+    for (uint32_t i = 0; i < s->material_count; i++) material[i] = s->materials[i].record;
+    TRY(thermal_open(&t->model, t->dev, material, s->material_count, s->history, &s->place));
+out:
+    free(material);
+    return rc;
+}
+
+static status warm_facets(temperature *t, const scene *s)
 {
     status rc = STATUS_OK;
     const thermal_subject all = {.facet = t->facet, .count = t->facet_count};
@@ -37,7 +50,7 @@ static status warm_facets(temperature *t, const scene *s, device_memory material
 
     NEED(facet_k, STATUS_MEMORY, "no memory for %zu facets", t->facet_count);
     if (s->thermal != SCENE_THERMAL_FIXED && s->history) {
-        TRY(thermal_open(&t->model, t->dev, materials, s->history, &s->place));
+        TRY(open_model(t, s));
         TRY(thermal_at_time(t->model, &all, facet_k));
     } else {
         for (size_t i = 0; i < t->facet_count; i++) facet_k[i] = t->facet[i].stated_temperature_k;
@@ -50,7 +63,7 @@ out:
 }
 
 status temperature_open(temperature **out, device *dev, const scene *s, device_memory facets,
-                        device_memory materials, const facet_record *facet, size_t facet_count)
+                        const facet_record *facet, size_t facet_count)
 {
     status rc = STATUS_OK;
     temperature *t = calloc(1, sizeof *t);
@@ -58,7 +71,7 @@ status temperature_open(temperature **out, device *dev, const scene *s, device_m
     NEED(t, STATUS_MEMORY, "no memory for temperatures");
     *t = (temperature){.dev = dev, .facet = facet, .facet_count = facet_count, .facets = facets};
     TRY(open_sun_history(t, s));
-    TRY(warm_facets(t, s, materials));
+    TRY(warm_facets(t, s));
     *out = t;
     t = NULL;
 out:

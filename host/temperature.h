@@ -10,10 +10,9 @@ typedef struct temperature temperature;
 
 /* Computes the facets' temperatures: stated ones, or from the weather with the sun on them whenever
  * it shines. Scene, device and memory must outlive it.
- *   facets, materials   facet_record with the ground's last, material_record
- *   facet               shape (facet_count): the same records */
+ *   facet, facets   facet_record, shape (facet_count), the ground's last, here and on the device */
 status temperature_open(temperature **out, device *dev, const scene *s, device_memory facets,
-                        device_memory materials, const facet_record *facet, size_t facet_count);
+                        const facet_record *facet, size_t facet_count);
 void temperature_free(temperature *t);
 
 /* float, shape (facet_count). */

@@ -5,13 +5,17 @@
 #include "sun.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { LANES = 16 }; /* facets of a work-item */
 
 #define WATER_J_M3_K 4.182e6 /* density times specific heat of water at 20 C */
 
 struct thermal {
     device *dev;
+    material_record *material;
     device_memory materials, forcing;
     size_t step_count;
     double step_s, time_h; /* of the image, since the first step */
@@ -71,8 +75,8 @@ out:
     return rc;
 }
 
-status thermal_open(thermal **out, device *dev, device_memory materials, const weather *w,
-                    const site *place)
+status thermal_open(thermal **out, device *dev, const material_record *material,
+                    size_t material_count, const weather *w, const site *place)
 {
     status rc = STATUS_OK;
     thermal *t = calloc(1, sizeof *t);
@@ -80,11 +84,14 @@ status thermal_open(thermal **out, device *dev, device_memory materials, const w
     NEED(t, STATUS_MEMORY, "no memory for temperatures");
     *t = (thermal){
         .dev = dev,
-        .materials = materials,
         .step_count = w->count,
         .step_s = w->interval_s,
         .time_h = (place->time_s - weather_origin_s(w, place)) / 3600.0 - w->record[0].time_h,
     };
+    t->material = malloc((material_count + 1) * sizeof *material);
+    NEED(t->material, STATUS_MEMORY, "no memory for %zu materials", material_count);
+    memcpy(t->material, material, material_count * sizeof *material);
+    TRY(device_allocate(dev, &t->materials, material_count * sizeof *material, material));
     TRY(upload_forcing(t, w, place));
     *out = t;
     t = NULL;
@@ -97,28 +104,36 @@ void thermal_free(thermal *t)
 {
     if (!t) return;
     device_release(t->forcing);
+    device_release(t->materials);
+    free(t->material);
     free(t);
 }
 
+/* Facets as the kernel takes them. */
+typedef struct batch {
+    facet_record *facet; /* shape (count) */
+    uint32_t *lit;       /* shape (word_count, count) */
+    size_t count;
+    uint32_t word_count, slot_count;
+} batch;
+
 /* Computes rows of temperatures; the span's steps and weight are set. */
-static status compute(const thermal *t, const thermal_subject *subject, thermal_span span,
-                      float *out_temperature_k)
+static status compute(const thermal *t, const batch *b, thermal_span span, float *out_temperature_k)
 {
     status rc = STATUS_OK;
     device_memory facets = NULL, lit = NULL, temperature_k = NULL;
-    const size_t count = subject->count, bytes = span.row_count * count * sizeof(float);
+    const size_t bytes = span.row_count * b->count * sizeof(float);
 
-    span.facet_count = (uint)count;
-    span.sunlit_words = subject->word_count;
-    span.sunlit_period = subject->slot_count;
+    span.facet_count = (uint)b->count;
+    span.sunlit_words = b->word_count;
+    span.sunlit_period = b->slot_count;
     span.step_s = (float)t->step_s;
-    TRY(device_allocate(t->dev, &facets, count * sizeof *subject->facet, subject->facet));
-    if (subject->lit)
-        TRY(device_allocate(t->dev, &lit, count * subject->word_count * sizeof(uint32_t),
-                            subject->lit));
+    TRY(device_allocate(t->dev, &facets, b->count * sizeof *b->facet, b->facet));
+    if (b->word_count > 0)
+        TRY(device_allocate(t->dev, &lit, b->count * b->word_count * sizeof *b->lit, b->lit));
     TRY(device_allocate(t->dev, &temperature_k, bytes, NULL));
-    TRY(device_run(t->dev, "thermal", shape1(count), ARG(span), ARG(facets), ARG(t->materials),
-                   ARG(t->forcing), ARG(lit), ARG(temperature_k)));
+    TRY(device_run(t->dev, "thermal", shape1((b->count + LANES - 1) / LANES), ARG(span),
+                   ARG(facets), ARG(t->materials), ARG(t->forcing), ARG(lit), ARG(temperature_k)));
     TRY(device_download(t->dev, temperature_k, 0, bytes, out_temperature_k));
 out:
     device_release(temperature_k);
@@ -138,25 +153,57 @@ static facet_record key_of(const facet_record *facet)
     return key;
 }
 
-/* Subjects that differ, and which of them stands for each. */
+/* Subjects that differ. */
 typedef struct kinds {
-    uint32_t *key; /* shape (count, facet and words) */
-    uint32_t *group, *first;
-    facet_record *facet;
-    uint32_t *lit;
-    size_t count;
+    uint32_t *key;           /* shape (subjects, words of a facet and of its history) */
+    uint32_t *group, *first; /* as distinct_rows tells them */
+    uint32_t *place;         /* of a kind in the batch */
+    batch each;
 } kinds;
 
 static void kinds_free(kinds *k)
 {
-    free(k->lit);
-    free(k->facet);
+    free(k->each.lit);
+    free(k->each.facet);
+    free(k->place);
     free(k->first);
     free(k->group);
     free(k->key);
 }
 
-static status kinds_find(kinds *k, const thermal_subject *s)
+static bool is_slab(const thermal *t, const facet_record *facet)
+{
+    return !(facet->stated_temperature_k > 0.0f) && t->material[facet->material].exposed_area < 0;
+}
+
+/* Lays the kinds out, slabs first: lanes side by side then go the same way. */
+static status fill_batch(kinds *k, const thermal *t, const thermal_subject *s)
+{
+    status rc = STATUS_OK;
+    batch *b = &k->each;
+    size_t place = 0;
+
+    b->word_count = s->word_count;
+    b->slot_count = s->slot_count;
+    b->facet = malloc((b->count + 1) * sizeof *b->facet);
+    b->lit = malloc((b->count * s->word_count + 1) * sizeof *b->lit);
+    k->place = malloc((b->count + 1) * sizeof *k->place);
+    NEED(b->facet && b->lit && k->place, STATUS_MEMORY, "no memory for %zu temperatures", b->count);
+    for (int slabs = 1; slabs >= 0; slabs--) {
+        for (size_t i = 0; i < b->count; i++) {
+            const size_t subject = k->first[i];
+            if (is_slab(t, &s->facet[subject]) != slabs) continue;
+            b->facet[place] = key_of(&s->facet[subject]);
+            for (size_t j = 0; j < s->word_count; j++)
+                b->lit[j * b->count + place] = s->lit[subject * s->word_count + j];
+            k->place[i] = (uint32_t)place++;
+        }
+    }
+out:
+    return rc;
+}
+
+static status kinds_find(kinds *k, const thermal *t, const thermal_subject *s)
 {
     status rc = STATUS_OK;
     const size_t facet_words = sizeof *s->facet / sizeof(uint32_t);
@@ -172,15 +219,8 @@ static status kinds_find(kinds *k, const thermal_subject *s)
         for (size_t j = 0; j < s->word_count; j++)
             k->key[i * words + facet_words + j] = s->lit[i * s->word_count + j];
     }
-    TRY(distinct_rows(k->key, words, s->count, k->group, k->first, &k->count));
-    k->facet = malloc((k->count + 1) * sizeof *k->facet);
-    k->lit = malloc((k->count * s->word_count + 1) * sizeof *k->lit);
-    NEED(k->facet && k->lit, STATUS_MEMORY, "no memory for %zu temperatures", k->count);
-    for (size_t i = 0; i < k->count; i++) {
-        k->facet[i] = key_of(&s->facet[k->first[i]]);
-        for (size_t j = 0; j < s->word_count; j++)
-            k->lit[i * s->word_count + j] = s->lit[k->first[i] * s->word_count + j];
-    }
+    TRY(distinct_rows(k->key, words, s->count, k->group, k->first, &k->each.count));
+    TRY(fill_batch(k, t, s));
 out:
     return rc;
 }
@@ -193,30 +233,29 @@ status thermal_at_time(const thermal *t, const thermal_subject *subject, float *
                                .row_count = 1,
                                .weight = (float)(1.0 - (ceil(position) - position))};
     kinds k = {0};
-    float *of_kind = NULL;
+    float *at_place_k = NULL;
 
     NEED(position >= 0.0 && position <= (double)t->step_count - 1.0, STATUS_ARGUMENT,
          "temperatures: %g h after the first weather record is outside the weather's %g h",
          t->time_h, ((double)t->step_count - 1.0) * t->step_s / 3600.0);
     if (subject->count == 0) goto out;
-    TRY(kinds_find(&k, subject));
-    of_kind = malloc(k.count * sizeof *of_kind);
-    NEED(of_kind, STATUS_MEMORY, "no memory for %zu temperatures", k.count);
-    thermal_subject distinct = *subject;
-    distinct.facet = k.facet;
-    distinct.count = k.count;
-    if (subject->lit) distinct.lit = k.lit;
-    TRY(compute(t, &distinct, span, of_kind));
-    for (size_t i = 0; i < subject->count; i++) out_temperature_k[i] = of_kind[k.group[i]];
+    TRY(kinds_find(&k, t, subject));
+    at_place_k = malloc(k.each.count * sizeof *at_place_k);
+    NEED(at_place_k, STATUS_MEMORY, "no memory for %zu temperatures", k.each.count);
+    TRY(compute(t, &k.each, span, at_place_k));
+    for (size_t i = 0; i < subject->count; i++)
+        out_temperature_k[i] = at_place_k[k.place[k.group[i]]];
 out:
-    free(of_kind);
+    free(at_place_k);
     kinds_free(&k);
     return rc;
 }
 
-status thermal_history(const thermal *t, const thermal_subject *subject, float *out_temperature_k)
+status thermal_history(const thermal *t, const facet_record *facet, float *out_temperature_k)
 {
+    facet_record one = *facet;
+    const batch b = {.facet = &one, .count = 1};
     const thermal_span span = {.row_count = (uint)t->step_count, .weight = 1.0f};
 
-    return compute(t, subject, span, out_temperature_k);
+    return compute(t, &b, span, out_temperature_k);
 }

@@ -12,10 +12,10 @@
 typedef struct thermal thermal;
 
 /* Turns the weather into what acts on a surface. The last full day of the history is the day of the
- * site's time. The device and the materials must outlive it.
- *   materials   material_record, those that facets name */
-status thermal_open(thermal **out, device *dev, device_memory materials, const weather *w,
-                    const site *place);
+ * site's time. The device must outlive it.
+ *   material   shape (material_count): those that facets name */
+status thermal_open(thermal **out, device *dev, const material_record *material,
+                    size_t material_count, const weather *w, const site *place);
 void thermal_free(thermal *t);
 
 /* What to compute temperatures of. */
@@ -34,8 +34,8 @@ typedef struct thermal_subject {
  * Fails with STATUS_ARGUMENT where the weather does not cover the site's time. */
 status thermal_at_time(const thermal *t, const thermal_subject *subject, float *out_temperature_k);
 
-/* The same at every step of the weather; nothing is compared.
- *   out_temperature_k   shape (weather's count, count) */
-status thermal_history(const thermal *t, const thermal_subject *subject, float *out_temperature_k);
+/* Computes the temperatures of one facet at every step of the weather, always lit.
+ *   out_temperature_k   shape (weather's count) */
+status thermal_history(const thermal *t, const facet_record *facet, float *out_temperature_k);
 
 #endif

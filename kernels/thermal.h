@@ -6,12 +6,14 @@
  *   surroundings     below the horizon: air temperature, reflectance .15; the sky's share of the
  *                    view is (1 + cos slope) / 2
  *   start            steady balance with the first record
- * assumed: all of these; see docs/departures.md. */
+ * assumed: all of these; see docs/departures.md.
+ * LANES_WIDTH facets go side by side; what they do not have in common is chosen lane by lane. */
 #ifndef THERMAL_KERNEL_H
 #define THERMAL_KERNEL_H
 
 #include "constants.h"
 #include "dialect.h"
+#include "lanes.h"
 #include "records.h"
 
 #define THERMAL_NODES 8
@@ -34,153 +36,162 @@ RECORD_SIZE(thermal_span, 32);
 
 /* What does not change with time. */
 typedef struct thermal_body {
-    float normal[3];
-    uint two_sided;
-    uint slab;
-    float front, back; /* exposed shares */
-    float absorptance, emissivity;
-    float power_w_m2;
-    float capacity_j_m2_k; /* of the whole thickness */
-    float conductance_w_m2_k;
+    lanes normal[3];
+    lanes two_sided;   /* 0 or 1 */
+    lanes slab;        /* 0 or 1 */
+    lanes front, back; /* exposed shares */
+    lanes absorptance, emissivity;
+    lanes power_w_m2;
+    lanes capacity_j_m2_k;    /* of the whole thickness */
+    lanes conductance_w_m2_k; /* 0: no slab */
 } thermal_body;
 
 /* What one instant of the weather does to a body. */
 typedef struct thermal_load {
-    float direct_w_m2; /* absorbed of the direct beam */
-    float steady_w_m2; /* all else that the front takes in whatever its temperature */
-    float back_w_m2;   /* the same for the back */
-    float convection_w_m2_k, air_k;
-    float rain_w_m2_k, rain_k;
+    lanes direct_w_m2; /* absorbed of the direct beam */
+    lanes steady_w_m2; /* all else that the front takes in whatever its temperature */
+    lanes back_w_m2;   /* the same for the back */
+    lanes rain_w_m2_k;
+    float convection_w_m2_k, air_k, rain_k;
 } thermal_load;
 
 typedef struct thermal_state {
-    float front_k, back_k;
-    float node_k[THERMAL_NODES];
+    lanes front_k, back_k;
+    lanes node_k[THERMAL_NODES];
 } thermal_state;
 
 /* A flux into a face and how much it falls per kelvin that the face gets warmer. */
 typedef struct thermal_flux {
-    float w_m2, w_m2_k;
+    lanes w_m2, w_m2_k;
 } thermal_flux;
 
-static inline thermal_body thermal_body_of(facet_record facet, material_record material)
+#define THERMAL_SET(body, name, lane, value) (((float *)&(body)->name)[lane] = (value))
+
+/* Fills one lane. */
+static inline void thermal_set_body(thermal_body *body, int lane, facet_record facet,
+                                    material_record material)
 {
     const float twice = 2.0f * fabs(material.exposed_area);
-    thermal_body body;
+    const uint slab = material.exposed_area < 0.0f && facet.thickness_m > 0.0f &&
+                      material.conductivity_w_m_k > 0.0f;
 
-    for (int i = 0; i < 3; i++) body.normal[i] = facet.normal[i];
-    body.two_sided = facet.two_sided;
-    body.slab = material.exposed_area < 0.0f && facet.thickness_m > 0.0f &&
-                material.conductivity_w_m_k > 0.0f;
-    body.front = fmin(1.0f, twice);
-    body.back = fmax(0.0f, twice - 1.0f);
-    body.absorptance = material.solar_absorptance;
-    body.emissivity = material.thermal_emissivity;
-    body.power_w_m2 = facet.power_w_m2;
-    body.capacity_j_m2_k =
-        material.density_kg_m3 * material.specific_heat_j_kg_k * facet.thickness_m;
-    body.conductance_w_m2_k = body.slab ? material.conductivity_w_m_k / facet.thickness_m : 0.0f;
-    return body;
+    for (int i = 0; i < 3; i++) THERMAL_SET(body, normal[i], lane, facet.normal[i]);
+    THERMAL_SET(body, two_sided, lane, (float)facet.two_sided);
+    THERMAL_SET(body, slab, lane, (float)slab);
+    THERMAL_SET(body, front, lane, fmin(1.0f, twice));
+    THERMAL_SET(body, back, lane, fmax(0.0f, twice - 1.0f));
+    THERMAL_SET(body, absorptance, lane, material.solar_absorptance);
+    THERMAL_SET(body, emissivity, lane, material.thermal_emissivity);
+    THERMAL_SET(body, power_w_m2, lane, facet.power_w_m2);
+    THERMAL_SET(body, capacity_j_m2_k, lane,
+                material.density_kg_m3 * material.specific_heat_j_kg_k * facet.thickness_m);
+    THERMAL_SET(body, conductance_w_m2_k, lane,
+                slab ? material.conductivity_w_m_k / facet.thickness_m : 0.0f);
 }
 
-static inline float thermal_black_w_m2(float temperature_k)
+static inline lanes thermal_black_w_m2(lanes temperature_k)
 {
-    const float square = temperature_k * temperature_k;
+    const lanes square = temperature_k * temperature_k;
 
     return STEFAN_BOLTZMANN * square * square;
 }
 
 /* lit: 1 where the sun reaches the facet, 0 in shadow. */
-static inline thermal_load thermal_load_of(thermal_body body, forcing_record now, float lit)
+static inline thermal_load thermal_load_of(const thermal_body *body, forcing_record now, lanes lit)
 {
-    const float sky = 0.5f * (1.0f + body.normal[2]), ground = 1.0f - sky;
-    const float cosine =
-        body.normal[0] * now.sun[0] + body.normal[1] * now.sun[1] + body.normal[2] * now.sun[2];
-    const float facing = body.two_sided ? fabs(cosine) : fmax(0.0f, cosine);
+    const lanes none = 0.0f;
+    const lanes sky = 0.5f * (1.0f + body->normal[2]), ground = 1.0f - sky;
+    const lanes cosine =
+        body->normal[0] * now.sun[0] + body->normal[1] * now.sun[1] + body->normal[2] * now.sun[2];
+    const lanes facing = body->two_sided != none ? fabs(cosine) : fmax(cosine, none);
     const float level_w_m2 = now.direct_w_m2 * fmax(0.0f, now.sun[2]) + now.diffuse_w_m2;
-    const float air_w_m2 = thermal_black_w_m2(now.air_temperature_k);
-    const float sun_w_m2 =
-        sky * now.diffuse_w_m2 + ground * THERMAL_GROUND_REFLECTANCE * level_w_m2;
-    const float longwave_w_m2 = sky * now.sky_longwave_w_m2 + ground * air_w_m2;
+    const float square_k2 = now.air_temperature_k * now.air_temperature_k;
+    const float air_w_m2 = STEFAN_BOLTZMANN * square_k2 * square_k2;
+    const lanes sun_w_m2 =
+        sky * now.diffuse_w_m2 + ground * (THERMAL_GROUND_REFLECTANCE * level_w_m2);
+    const lanes longwave_w_m2 = sky * now.sky_longwave_w_m2 + ground * air_w_m2;
     thermal_load load;
 
-    load.direct_w_m2 = body.front * body.absorptance * lit * facing * now.direct_w_m2;
-    load.steady_w_m2 = body.power_w_m2 +
-                       body.front * (body.absorptance * sun_w_m2 + body.emissivity * longwave_w_m2);
-    load.back_w_m2 = body.back * body.emissivity * air_w_m2;
+    load.direct_w_m2 = body->front * body->absorptance * lit * facing * now.direct_w_m2;
+    load.steady_w_m2 = body->power_w_m2 + body->front * (body->absorptance * sun_w_m2 +
+                                                         body->emissivity * longwave_w_m2);
+    load.back_w_m2 = body->back * body->emissivity * air_w_m2;
     load.convection_w_m2_k = now.convection_w_m2_k;
     load.air_k = now.air_temperature_k;
     /* assumed: rain falls straight down. */
-    load.rain_w_m2_k = body.front * fmax(0.0f, body.normal[2]) * now.rain_w_m2_k;
+    load.rain_w_m2_k = body->front * fmax(body->normal[2], none) * now.rain_w_m2_k;
     load.rain_k = now.rain_temperature_k;
     return load;
 }
 
 /* Linear between two records but for the direct beam: that of the nearer one is held, so that the
  * edge of a shadow stays an edge. */
-static inline thermal_load thermal_load_between(thermal_load a, thermal_load b, float share,
-                                                float direct_w_m2)
+static inline thermal_load thermal_load_between(const thermal_load *a, const thermal_load *b,
+                                                float share, lanes direct_w_m2)
 {
     thermal_load load;
 
     load.direct_w_m2 = direct_w_m2;
-    load.steady_w_m2 = a.steady_w_m2 + share * (b.steady_w_m2 - a.steady_w_m2);
-    load.back_w_m2 = a.back_w_m2 + share * (b.back_w_m2 - a.back_w_m2);
+    load.steady_w_m2 = a->steady_w_m2 + share * (b->steady_w_m2 - a->steady_w_m2);
+    load.back_w_m2 = a->back_w_m2 + share * (b->back_w_m2 - a->back_w_m2);
     load.convection_w_m2_k =
-        a.convection_w_m2_k + share * (b.convection_w_m2_k - a.convection_w_m2_k);
-    load.air_k = a.air_k + share * (b.air_k - a.air_k);
-    load.rain_w_m2_k = a.rain_w_m2_k + share * (b.rain_w_m2_k - a.rain_w_m2_k);
-    load.rain_k = a.rain_k + share * (b.rain_k - a.rain_k);
+        a->convection_w_m2_k + share * (b->convection_w_m2_k - a->convection_w_m2_k);
+    load.air_k = a->air_k + share * (b->air_k - a->air_k);
+    load.rain_w_m2_k = a->rain_w_m2_k + share * (b->rain_w_m2_k - a->rain_w_m2_k);
+    load.rain_k = a->rain_k + share * (b->rain_k - a->rain_k);
     return load;
 }
 
-static inline thermal_flux thermal_front_flux(thermal_body body, thermal_load load, float front_k)
+static inline thermal_flux thermal_front_flux(const thermal_body *body, const thermal_load *load,
+                                              lanes front_k)
 {
-    const float emitted_w_m2 = body.front * body.emissivity * thermal_black_w_m2(front_k);
-    const float convection_w_m2_k = body.front * load.convection_w_m2_k;
+    const lanes share = body->front * body->emissivity * STEFAN_BOLTZMANN;
+    const lanes cube_w_m2_k = share * front_k * front_k * front_k;
+    const lanes convection_w_m2_k = body->front * load->convection_w_m2_k;
     thermal_flux flux;
 
-    flux.w_m2 = load.direct_w_m2 + load.steady_w_m2 - emitted_w_m2 +
-                convection_w_m2_k * (load.air_k - front_k) +
-                load.rain_w_m2_k * (load.rain_k - front_k);
-    flux.w_m2_k = 4.0f * emitted_w_m2 / front_k + convection_w_m2_k + load.rain_w_m2_k;
+    flux.w_m2 = load->direct_w_m2 + load->steady_w_m2 - cube_w_m2_k * front_k +
+                convection_w_m2_k * (load->air_k - front_k) +
+                load->rain_w_m2_k * (load->rain_k - front_k);
+    flux.w_m2_k = 4.0f * cube_w_m2_k + convection_w_m2_k + load->rain_w_m2_k;
     return flux;
 }
 
-static inline thermal_flux thermal_back_flux(thermal_body body, thermal_load load, float back_k)
+static inline thermal_flux thermal_back_flux(const thermal_body *body, const thermal_load *load,
+                                             lanes back_k)
 {
-    const float emitted_w_m2 = body.back * body.emissivity * thermal_black_w_m2(back_k);
-    const float convection_w_m2_k = body.back * load.convection_w_m2_k;
+    const lanes share = body->back * body->emissivity * STEFAN_BOLTZMANN;
+    const lanes cube_w_m2_k = share * back_k * back_k * back_k;
+    const lanes convection_w_m2_k = body->back * load->convection_w_m2_k;
     thermal_flux flux;
 
-    flux.w_m2 = load.back_w_m2 - emitted_w_m2 + convection_w_m2_k * (load.air_k - back_k);
-    flux.w_m2_k = 4.0f * emitted_w_m2 / back_k + convection_w_m2_k;
+    flux.w_m2 = load->back_w_m2 - cube_w_m2_k * back_k + convection_w_m2_k * (load->air_k - back_k);
+    flux.w_m2_k = 4.0f * cube_w_m2_k + convection_w_m2_k;
     return flux;
 }
 
 /* Steady balance by Newton's method: both faces of a slab, or one temperature. Starts at the
  * air temperature and stays there where nothing is exchanged. */
-static inline thermal_state thermal_start(thermal_body body, thermal_load load)
+static inline thermal_state thermal_start(const thermal_body *body, const thermal_load *load)
 {
-    const float through = body.conductance_w_m2_k;
+    const lanes none = 0.0f, one = 1.0f, through = body->conductance_w_m2_k;
     thermal_state state;
 
-    state.front_k = state.back_k = load.air_k;
+    state.front_k = state.back_k = (lanes)load->air_k;
     for (int i = 0; i < 24; i++) {
         const thermal_flux front = thermal_front_flux(body, load, state.front_k);
         const thermal_flux back = thermal_back_flux(body, load, state.back_k);
-        const float both = front.w_m2_k + back.w_m2_k;
-        if (both <= 0.0f) break;
-        if (body.slab) {
-            const float passed = through * (state.front_k - state.back_k);
-            const float in_front = front.w_m2 - passed, in_back = back.w_m2 + passed;
-            const float scale = 1.0f / (front.w_m2_k * back.w_m2_k + through * both);
-            state.front_k += scale * ((back.w_m2_k + through) * in_front + through * in_back);
-            state.back_k += scale * ((front.w_m2_k + through) * in_back + through * in_front);
-        } else {
-            state.front_k += (front.w_m2 + back.w_m2) / both;
-            state.back_k = state.front_k;
-        }
+        const lanes both = front.w_m2_k + back.w_m2_k;
+        const lanes exchanges = both > none ? one : none;
+        const lanes passed = through * (state.front_k - state.back_k);
+        const lanes in_front = front.w_m2 - passed, in_back = back.w_m2 + passed;
+        const lanes scale =
+            exchanges / (front.w_m2_k * back.w_m2_k + through * both + (1.0f - exchanges));
+        const lanes lump = exchanges * (front.w_m2 + back.w_m2) / (both + (1.0f - exchanges));
+        const lanes front_rise = scale * ((back.w_m2_k + through) * in_front + through * in_back);
+        const lanes back_rise = scale * ((front.w_m2_k + through) * in_back + through * in_front);
+        state.front_k += body->slab != none ? front_rise : lump;
+        state.back_k += body->slab != none ? back_rise : lump;
     }
     for (int i = 0; i < THERMAL_NODES; i++)
         state.node_k[i] =
@@ -190,96 +201,133 @@ static inline thermal_state thermal_start(thermal_body body, thermal_load load)
 
 /* One node: T <- Teq + (T - Teq) exp(-Lambda dt / C), exact for a constant load, so that thin
  * sheets need no shorter steps. */
-static inline void thermal_step_lump(thermal_state *state, thermal_body body, thermal_load load,
-                                     float step_s)
+static inline void thermal_step_lump(thermal_state *state, const thermal_body *body,
+                                     const thermal_load *load, float step_s)
 {
     const thermal_flux front = thermal_front_flux(body, load, state->front_k);
     const thermal_flux back = thermal_back_flux(body, load, state->front_k);
-    const float flux_w_m2 = front.w_m2 + back.w_m2, lambda = front.w_m2_k + back.w_m2_k;
-    const float steps = step_s / body.capacity_j_m2_k, decay = lambda * steps;
+    const lanes flux_w_m2 = front.w_m2 + back.w_m2, lambda = front.w_m2_k + back.w_m2_k;
+    const lanes steps = step_s / body->capacity_j_m2_k, decay = lambda * steps;
 
-    state->front_k += decay > 1e-4f ? -expm1(-decay) * flux_w_m2 / lambda : flux_w_m2 * steps;
+    state->front_k +=
+        decay > (lanes)1e-4f ? -expm1(-decay) * flux_w_m2 / lambda : flux_w_m2 * steps;
     state->back_k = state->front_k;
 }
 
-/* A face without capacity in front of a node's half thickness, linearised: the heat that reaches
- * the node is `entering` minus `yielding` times the node's rise. */
-typedef struct thermal_boundary {
-    float entering, yielding;
-} thermal_boundary;
-
-static inline thermal_boundary thermal_boundary_of(thermal_flux flux, float half_w_m2_k,
-                                                   float face_k, float node_k)
-{
-    const float share = half_w_m2_k / (half_w_m2_k + flux.w_m2_k);
-    thermal_boundary boundary;
-
-    boundary.entering = share * (flux.w_m2 + flux.w_m2_k * (face_k - node_k));
-    boundary.yielding = share * flux.w_m2_k;
-    return boundary;
-}
-
-static inline float thermal_face_k(thermal_flux flux, float half_w_m2_k, float face_k, float node_k)
-{
-    return face_k + (flux.w_m2 - half_w_m2_k * (face_k - node_k)) / (half_w_m2_k + flux.w_m2_k);
-}
-
 /* Eight equal nodes, backward Euler, solved for the rises so that single precision suffices:
- * C dT_j/dt = G (T_{j-1} - T_j) + G (T_{j+1} - T_j). */
-static inline void thermal_step_slab(thermal_state *state, thermal_body body, thermal_load load,
-                                     float step_s)
+ * C dT_j/dt = G (T_{j-1} - T_j) + G (T_{j+1} - T_j), eliminated from the back to the front. What a
+ * node and all behind it take up per kelvin that it rises is
+ *   taken_j = C / dt + G taken_{j+1} / (G + taken_{j+1}),
+ * a sum without a difference, good to the last digit however thin the slab. It changes with the
+ * back's slope alone and is computed once in a step of the weather. */
+typedef struct thermal_elimination {
+    lanes between, half_way;      /* G, and from a face to its node */
+    lanes back_slope;             /* of the back's flux */
+    lanes passed[THERMAL_NODES];  /* G / (G + taken_j), the last with the back's face */
+    lanes inverse[THERMAL_NODES]; /* 1 / (G + taken_j); of node 0: taken_0 itself */
+} thermal_elimination;
+
+static inline thermal_elimination thermal_eliminate(const thermal_body *body, lanes back_slope,
+                                                    float step_s)
 {
-    const float between = body.conductance_w_m2_k * THERMAL_NODES, half_way = 2.0f * between;
-    const float stored = body.capacity_j_m2_k / (THERMAL_NODES * step_s);
+    const lanes stored = body->capacity_j_m2_k / (THERMAL_NODES * step_s);
+    thermal_elimination e;
+    lanes taken;
+
+    e.between = body->conductance_w_m2_k * (float)THERMAL_NODES;
+    e.half_way = 2.0f * e.between;
+    e.back_slope = back_slope;
+    taken = stored + e.half_way * back_slope / (e.half_way + back_slope);
+    for (int j = THERMAL_NODES - 1; j > 0; j--) {
+        e.inverse[j] = 1.0f / (e.between + taken);
+        e.passed[j] = e.between * e.inverse[j];
+        taken = stored + taken * e.passed[j];
+    }
+    e.inverse[0] = taken;
+    e.passed[0] = e.half_way / (e.half_way + back_slope);
+    return e;
+}
+
+static inline void thermal_step_slab(thermal_state *state, const thermal_body *body,
+                                     const thermal_elimination *e, const thermal_load *load)
+{
+    const int last = THERMAL_NODES - 1;
     const thermal_flux front = thermal_front_flux(body, load, state->front_k);
     const thermal_flux back = thermal_back_flux(body, load, state->back_k);
-    const thermal_boundary first =
-        thermal_boundary_of(front, half_way, state->front_k, state->node_k[0]);
-    const thermal_boundary last =
-        thermal_boundary_of(back, half_way, state->back_k, state->node_k[THERMAL_NODES - 1]);
-    float upper[THERMAL_NODES], rise[THERMAL_NODES];
+    const lanes front_share = e->half_way / (e->half_way + front.w_m2_k);
+    const lanes back_excess = state->back_k - state->node_k[last];
+    const lanes front_excess = state->front_k - state->node_k[0];
+    lanes right[THERMAL_NODES], rise;
 
-    for (int j = 0; j < THERMAL_NODES; j++) {
-        float diagonal = stored, right = 0.0f;
-        if (j > 0) {
-            diagonal += between * (1.0f - upper[j - 1]);
-            right += between * (state->node_k[j - 1] - state->node_k[j] + rise[j - 1]);
-        } else {
-            diagonal += first.yielding;
-            right += first.entering;
-        }
-        if (j < THERMAL_NODES - 1) {
-            diagonal += between;
-            right += between * (state->node_k[j + 1] - state->node_k[j]);
-        } else {
-            diagonal += last.yielding;
-            right += last.entering;
-        }
-        upper[j] = between / diagonal;
-        rise[j] = right / diagonal;
+    right[last] = e->between * (state->node_k[last - 1] - state->node_k[last]) +
+                  e->passed[0] * (back.w_m2 + e->back_slope * back_excess);
+    for (int j = last - 1; j > 0; j--)
+        right[j] = e->between * ((state->node_k[j - 1] - state->node_k[j]) +
+                                 (state->node_k[j + 1] - state->node_k[j])) +
+                   e->passed[j + 1] * right[j + 1];
+    right[0] = e->between * (state->node_k[1] - state->node_k[0]) + e->passed[1] * right[1] +
+               front_share * (front.w_m2 + front.w_m2_k * front_excess);
+    rise = right[0] / (e->inverse[0] + front_share * front.w_m2_k);
+    state->node_k[0] += rise;
+    for (int j = 1; j <= last; j++) {
+        rise = right[j] * e->inverse[j] + e->passed[j] * rise;
+        state->node_k[j] += rise;
     }
-    for (int j = THERMAL_NODES - 2; j >= 0; j--) rise[j] += upper[j] * rise[j + 1];
-    for (int j = 0; j < THERMAL_NODES; j++) state->node_k[j] += rise[j];
-    state->front_k = thermal_face_k(front, half_way, state->front_k, state->node_k[0]);
-    state->back_k = thermal_face_k(back, half_way, state->back_k, state->node_k[THERMAL_NODES - 1]);
+    state->front_k += (front.w_m2 - e->half_way * (state->front_k - state->node_k[0])) *
+                      front_share / e->half_way;
+    state->back_k += (back.w_m2 - e->half_way * (state->back_k - state->node_k[last])) *
+                     e->passed[0] / e->half_way;
 }
 
-/* Goes from one record of the weather to the next. */
-static inline void thermal_advance(thermal_state *state, thermal_body body, thermal_load before,
-                                   thermal_load after, float step_s)
+static inline lanes thermal_sub_direct(const thermal_load *before, const thermal_load *after, int i,
+                                       int count)
 {
-    const int half_count = (int)ceil(0.5f * step_s / THERMAL_SUB_STEP_S), count = 2 * half_count;
+    return 2 * i < count ? before->direct_w_m2 : after->direct_w_m2;
+}
+
+/* Goes from one record of the weather to the next. The slab's implicit step takes the load at its
+ * end, the lump's at its middle. */
+static inline void thermal_advance_slab(thermal_state *state, const thermal_body *body,
+                                        const thermal_load *before, const thermal_load *after,
+                                        float step_s, int count)
+{
+    const thermal_flux back = thermal_back_flux(body, before, state->back_k);
+    const thermal_elimination e = thermal_eliminate(body, back.w_m2_k, step_s / (float)count);
 
     for (int i = 0; i < count; i++) {
-        /* The slab's implicit step takes the load at its end, the lump's at its middle. */
-        const float share = ((float)i + (body.slab ? 1.0f : 0.5f)) / (float)count;
-        const float direct_w_m2 = i < half_count ? before.direct_w_m2 : after.direct_w_m2;
-        const thermal_load load = thermal_load_between(before, after, share, direct_w_m2);
-        if (body.slab)
-            thermal_step_slab(state, body, load, step_s / (float)count);
-        else
-            thermal_step_lump(state, body, load, step_s / (float)count);
+        const thermal_load load = thermal_load_between(before, after, (float)(i + 1) / (float)count,
+                                                       thermal_sub_direct(before, after, i, count));
+        thermal_step_slab(state, body, &e, &load);
     }
+}
+
+static inline void thermal_advance_lump(thermal_state *state, const thermal_body *body,
+                                        const thermal_load *before, const thermal_load *after,
+                                        float step_s, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const thermal_load load =
+            thermal_load_between(before, after, ((float)i + 0.5f) / (float)count,
+                                 thermal_sub_direct(before, after, i, count));
+        thermal_step_lump(state, body, &load, step_s / (float)count);
+    }
+}
+
+/* Slabs and lumps side by side: each goes its own way, the other's is not taken. */
+static inline void thermal_advance(thermal_state *state, const thermal_body *body,
+                                   const thermal_load *before, const thermal_load *after,
+                                   float step_s)
+{
+    const lanes none = 0.0f;
+    const int count = 2 * (int)ceil(0.5f * step_s / THERMAL_SUB_STEP_S);
+    thermal_state as_lump = *state;
+
+    if (lanes_any(body->slab == none))
+        thermal_advance_lump(&as_lump, body, before, after, step_s, count);
+    if (lanes_any(body->slab != none))
+        thermal_advance_slab(state, body, before, after, step_s, count);
+    state->front_k = body->slab != none ? state->front_k : as_lump.front_k;
+    state->back_k = body->slab != none ? state->back_k : as_lump.back_k;
 }
 
 #endif

@@ -15,34 +15,38 @@ STEP_S = 900.0
 ASPHALT = {"density_kg_m3": 2114.0, "specific_heat_j_kg_k": 920.0, "conductivity_w_m_k": 0.689}
 
 
+def launch(opencl, kernel, width, facets, materials, forcing, *, first=0, rows=None, weight=1.0,
+           step_s=STEP_S, lit=None, period=0):
+    """Temperatures of shape (rows, facets); `width` facets a work-item."""
+    context = opencl.context
+    rows = len(forcing) if rows is None else rows
+    words = 0 if lit is None else (len(lit) + 31) // 32
+    span = np.zeros(1, SPAN)
+    span[0] = (len(facets), first, rows, words, weight, step_s, period)
+    copy = cl.mem_flags.COPY_HOST_PTR
+    memory = [cl.Buffer(context, copy, hostbuf=a) for a in (facets, materials, forcing)]
+    sunlit = None if lit is None else cl.Buffer(context, copy, hostbuf=packed(lit, words))
+    out = np.empty((rows, len(facets)), np.float32)
+    target = cl.Buffer(context, cl.mem_flags.WRITE_ONLY, out.nbytes)
+    kernel(opencl.queue, ((len(facets) + width - 1) // width,), None, span[0], *memory, sunlit,
+           target)
+    cl.enqueue_copy(opencl.queue, out, target)
+    return out
+
+
 @pytest.fixture(scope="module")
 def thermal(opencl):
     """Runs the kernel: temperatures of shape (rows, facets)."""
-    context, kernel = opencl.context, opencl.build("thermal")
-
-    def run(facets, materials, forcing, *, first=0, rows=None, weight=1.0, step_s=STEP_S, lit=None):
-        rows = len(forcing) if rows is None else rows
-        words = 0 if lit is None else (len(lit) + 31) // 32
-        span = np.zeros(1, SPAN)
-        span[0] = (len(facets), first, rows, words, weight, step_s)
-        copy = cl.mem_flags.COPY_HOST_PTR
-        memory = [cl.Buffer(context, copy, hostbuf=a) for a in (facets, materials, forcing)]
-        sunlit = None if lit is None else cl.Buffer(context, copy, hostbuf=packed(lit, words))
-        out = np.empty((rows, len(facets)), np.float32)
-        target = cl.Buffer(context, cl.mem_flags.WRITE_ONLY, out.nbytes)
-        kernel(opencl.queue, (len(facets),), None, span[0], *memory, sunlit, target)
-        cl.enqueue_copy(opencl.queue, out, target)
-        return out
-
-    return run
+    kernel = opencl.build("thermal")
+    return lambda *what, **how: launch(opencl, kernel, 16, *what, **how)
 
 
 def packed(lit, words):
-    """Bit step % 32 of word step / 32; lit: (steps, facets)."""
+    """Bit step % 32 of word step / 32, shape (words, facets); lit: (steps, facets)."""
     steps = np.zeros((words * 32, lit.shape[1]), np.uint64)
     steps[: len(lit)] = lit
     bits = steps.reshape(words, 32, -1) << np.arange(32, dtype=np.uint64)[None, :, None]
-    return np.ascontiguousarray(bits.sum(axis=1).T.astype(np.uint32))
+    return np.ascontiguousarray(bits.sum(axis=1).astype(np.uint32))
 
 
 def towards(slope_deg, azimuth_deg):
@@ -163,6 +167,31 @@ def test_a_mask_of_all_ones_changes_nothing(thermal, table, two_days):
     lit = np.ones((193, 22), bool)
 
     assert (thermal(*table, two_days, lit=lit) == thermal(*table, two_days)).all()
+
+
+def test_a_facet_does_not_depend_on_its_neighbours(thermal, table, two_days):
+    facets, materials = table
+    order = np.random.default_rng(9).permutation(22)
+
+    assert (thermal(facets[order], materials, two_days)
+            == thermal(facets, materials, two_days)[:, order]).all()
+
+
+def test_lanes_equal_their_scalar_twin(opencl, table, two_days):
+    lit = np.random.default_rng(10).random((193, 22)) < 0.5
+    together = launch(opencl, opencl.build("thermal"), 16, *table, two_days, lit=lit)
+    alone = launch(opencl, opencl.build("thermal", "-DLANES_WIDTH=1"), 1, *table, two_days, lit=lit)
+
+    # exp of a vector and of a scalar differ in their last digit; 768 sub-steps add it up
+    assert abs(together - alone).max() < 1e-3
+
+
+def test_the_mask_of_a_day_begins_anew_after_its_period(thermal, table, two_days):
+    day = np.random.default_rng(11).random((96, 22)) < 0.5
+
+    two = thermal(*table, two_days, lit=day, period=96)
+
+    assert (two == thermal(*table, two_days, lit=np.concatenate([day, day, day[:1]]))).all()
 
 
 def test_a_time_between_steps_is_linear(thermal, table, two_days):

@@ -21,9 +21,10 @@ FORCING = np.dtype({
     "formats": ["f4", "f4", "f4", "f4", "f4", ("f4", 3), "f4", "f4"],
     "offsets": [0, 4, 8, 12, 16, 20, 32, 36], "itemsize": 48})
 SPAN = np.dtype({
-    "names": ["facet_count", "first_step", "row_count", "sunlit_words", "weight", "step_s"],
-    "formats": ["u4", "u4", "u4", "u4", "f4", "f4"],
-    "offsets": [0, 4, 8, 12, 16, 20], "itemsize": 32})
+    "names": ["facet_count", "first_step", "row_count", "sunlit_words", "weight", "step_s",
+              "sunlit_period"],
+    "formats": ["u4", "u4", "u4", "u4", "f4", "f4", "u4"],
+    "offsets": [0, 4, 8, 12, 16, 20, 24], "itemsize": 32})
 
 
 class Body:
@@ -95,13 +96,16 @@ def start(body, load):
     return front, back, front[:, None] + share * (back - front)[:, None]
 
 
-def step_slab(body, load, dt, front, back, node):
-    """Backward Euler over face, nodes, face; the faces have no capacity."""
+def step_slab(body, load, dt, front, back, node, back_slope):
+    """Backward Euler over face, nodes, face; the faces have no capacity. The back's flux falls with
+    its temperature as it did at the last record of the weather."""
     count, g = len(front), body.conductance * NODES
     store = body.capacity / (NODES * dt)
     a, b = np.zeros((count, NODES + 2, NODES + 2)), np.zeros((count, NODES + 2))
     for face, t, flux_of in ((0, front, front_flux), (NODES + 1, back, back_flux)):
         flux, slope = flux_of(body, load, t)
+        if face > 0:
+            slope = back_slope
         inner = 1 if face == 0 else NODES
         a[:, face, face], a[:, face, inner] = slope + 2 * g, -2 * g
         b[:, face] = flux + slope * t
@@ -132,6 +136,7 @@ def history(facets, materials, forcing, step_s, lit=None, sub_steps=4):
     rows = [front]
     for now, sun in zip(forcing[1:], lit[1:]):
         after = load_of(body, now, sun)
+        back_slope = back_flux(body, before, back)[1]
         for i in range(sub_steps):
             direct = before[0] if i < sub_steps // 2 else after[0]
             middle, end = (
@@ -139,7 +144,7 @@ def history(facets, materials, forcing, step_s, lit=None, sub_steps=4):
                 for share in ((i + 0.5) / sub_steps, (i + 1) / sub_steps))
             dt = step_s / sub_steps
             lump = step_lump(body, middle, dt, front)
-            front, back, node = step_slab(body, end, dt, front, back, node)
+            front, back, node = step_slab(body, end, dt, front, back, node, back_slope)
             front = np.where(body.slab, front, lump)
         before = after
         rows.append(front)

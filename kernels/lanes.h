@@ -1,0 +1,57 @@
+/* Lanes: LANES_WIDTH independent problems side by side. With width 1 a lane is a float: the scalar
+ * twin, and what the host compiles. */
+#ifndef LANES_H
+#define LANES_H
+
+#include "dialect.h"
+
+#if !defined(LANES_WIDTH) && defined(__OPENCL_C_VERSION__)
+#define LANES_WIDTH 16
+#elif !defined(LANES_WIDTH)
+#define LANES_WIDTH 1
+#endif
+
+#if LANES_WIDTH == 16
+typedef float16 lanes;
+typedef int16 lanes_mask; /* of a comparison */
+typedef uint16 lanes_bits;
+#define lanes_any(mask) any(mask)
+#elif LANES_WIDTH == 1
+typedef float lanes;
+typedef int lanes_mask;
+typedef uint lanes_bits;
+#define lanes_any(mask) (mask)
+#endif
+
+#ifdef __OPENCL_C_VERSION__
+
+/* Loads and stores of lanes first .. first + LANES_WIDTH - 1 of `count`; what is past the end is the
+ * last one once more, and is not stored. */
+static inline uint lanes_place(uint first, uint lane, uint count)
+{
+    return first + lane < count ? first + lane : count - 1;
+}
+
+static inline lanes_bits lanes_load_bits(global const uint *from, uint first, uint count)
+{
+    lanes_bits out;
+
+    for (uint i = 0; i < LANES_WIDTH; i++) ((uint *)&out)[i] = from[lanes_place(first, i, count)];
+    return out;
+}
+
+static inline void lanes_store(lanes from, global float *to, uint first, uint count)
+{
+    for (uint i = 0; i < LANES_WIDTH && first + i < count; i++)
+        to[first + i] = ((const float *)&from)[i];
+}
+
+#if LANES_WIDTH == 16
+#define lanes_of_bits(bits) convert_float16(bits)
+#else
+#define lanes_of_bits(bits) ((float)(bits))
+#endif
+
+#endif
+
+#endif
