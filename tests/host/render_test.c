@@ -256,6 +256,18 @@ static void a_black_box_is_seen_as_what_it_is(void **state)
     scene_free(s);
 }
 
+/* Exact mode takes what its background sees for black at the background's temperature. */
+static void a_grey_box_in_exact_mode_is_a_black_body(void **state)
+{
+    (void)state;
+    scene *s = read_box("0.5", "exact", mwir_band);
+    const double lwir = black_body(8.0, 14.0, false), mwir = black_body(3.0, 5.0, false);
+
+    assert_plane(s, "radiance_lwir", lwir, SUMS * lwir);
+    assert_plane(s, "radiance_mwir", mwir, SUMS * mwir);
+    scene_free(s);
+}
+
 /* eq. 2.4-2 knows one bounce: what is missing from a closed box at one temperature is what its
  * background does not emit, L = e B + (1 - e) e_B B with e_B = e. Thesis mode sums over the database's
  * points in the band; with this band alone the database begins and ends with it. */
@@ -283,6 +295,7 @@ int main(void)
         cmocka_unit_test(radiances_come_first_and_carry_their_band),
         cmocka_unit_test(a_black_box_is_a_black_body),
         cmocka_unit_test(a_black_box_is_seen_as_what_it_is),
+        cmocka_unit_test(a_grey_box_in_exact_mode_is_a_black_body),
         cmocka_unit_test(a_box_in_thesis_mode_lacks_what_its_background_reflects),
     };
 
