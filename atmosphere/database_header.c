@@ -71,12 +71,12 @@ static void write_method(FILE *stream, const atmosphere_plan *plan)
             "an\n"
             "# isotropic sky of 15 degrees steps 2.3 % too low.\n",
             stream);
-    else if (plan->wavenumber_step_cm1 > 5.0)
+    else if (plan->wavenumber_step_cm1 > plan->sample_step_cm1)
         fprintf(stream,
-                "# LOWTRAN every 5 cm-1, averaged over %g cm-1 about the row's wavenumber by the\n"
+                "# LOWTRAN every %g cm-1, averaged over %g cm-1 about the row's wavenumber by the\n"
                 "# trapezoid rule. The sky's integral is exact for radiance that is linear in the\n"
                 "# zenith angle between directions.\n",
-                plan->wavenumber_step_cm1);
+                plan->sample_step_cm1, plan->wavenumber_step_cm1);
     fputs("# Known limits: LOWTRAN resolves 20 cm-1; its multiple scattering is a two-stream "
           "estimate,\n"
           "# 11 to 18 % low; between the angles of the tables the reader interpolates linearly.\n",

@@ -1,14 +1,13 @@
 #include "recipe.h"
 
-#include "card_deck.h"
 #include "deck_text.h"
+#include "recipe_deck.h"
 #include "sky_weight.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* What a run gives. */
 typedef enum kind { KIND_SUN, KIND_PATH, KIND_SKY } kind;
@@ -21,8 +20,7 @@ typedef struct task {
 
 struct recipe {
     atmosphere_plan plan;
-    site place;
-    sun_position sun;
+    recipe_sight sight;
     const char *profile_cards, *phase_cards;
     atmosphere *air;
     size_t count;
@@ -30,123 +28,20 @@ struct recipe {
     char **decks, **names;
 };
 
-enum {
-    OWN_PROFILE = 7,
-    TRANSMITTED_SUN = 3,
-    RADIANCE = 2,
-    BETWEEN = 2,
-    TO_SPACE = 3,
-    NAME_SIZE = 64
-};
+enum { NAME_SIZE = 64 };
 
-#define EARTH_RADIUS_KM 6371.23 /* LOWTRAN's */
-#define DEGREE (M_PI / 180.0)
 #define KILOMETRE 1000.0
 #define PER_CM2 1e4 /* W cm-2 to W m-2 */
-#define LOWTRAN_STEP_CM1                                                                           \
-    5.0 /* LOWTRAN samples no finer, and undersamples above (notes of its band
-                                model: 20 cm-1 wide) */
-
-/* Cards hold three decimals. */
-static double card_value(double value)
-{
-    return round(value * 1000.0) / 1000.0;
-}
-
-static double wrap_deg(double angle)
-{
-    return angle - 360.0 * floor((angle + 180.0) / 360.0);
-}
 
 static double sample_step(const recipe *r)
 {
-    return r->plan.thesis ? r->plan.wavenumber_step_cm1 : LOWTRAN_STEP_CM1;
+    return r->plan.sample_step_cm1;
 }
 
 /* Half the width over which runs are averaged. */
 static double half_width(const recipe *r)
 {
     return r->plan.wavenumber_step_cm1 > sample_step(r) ? r->plan.wavenumber_step_cm1 / 2.0 : 0.0;
-}
-
-static void set_air(const recipe *r, card_deck *deck)
-{
-    const atmosphere_plan *plan = &r->plan;
-
-    deck->model = *r->profile_cards ? OWN_PROFILE : plan->model;
-    if (*r->profile_cards) {
-        for (int i = 0; i < 6; i++) deck->m[i] = plan->model;
-        deck->mdef = 1;
-        deck->im = 1;
-    }
-    deck->noprt = 1;
-    deck->ihaze = plan->aerosol;
-    deck->icstl = 1;
-    deck->vis_km = card_value(plan->visibility_km);
-    deck->gndalt_km = card_value(plan->ground_altitude_m / KILOMETRE);
-}
-
-/* A path that leaves towards an azimuth. */
-static void set_scattering(const recipe *r, card_deck *deck, double azimuth_deg)
-{
-    const atmosphere_plan *plan = &r->plan;
-    const time_t now = (time_t)floor(r->place.time_s);
-    struct tm utc;
-
-    gmtime_r(&now, &utc);
-    deck->iday = utc.tm_yday + 1;
-    deck->iph = (int)plan->phase;
-    deck->g = card_value(plan->asymmetry);
-    deck->tbound_k = plan->thesis ? 300.0 : -1.0;
-    if (plan->thesis) {
-        deck->iparm = 1;
-        deck->parm[0] = card_value(r->place.latitude_deg);
-        deck->parm[1] = card_value(-r->place.longitude_deg);
-        deck->time_h = card_value(utc.tm_hour + (utc.tm_min + utc.tm_sec / 60.0) / 60.0);
-        deck->psipo_deg = card_value(azimuth_deg);
-    } else {
-        deck->iparm = 2;
-        deck->parm[0] = card_value(wrap_deg(r->sun.azimuth_rad / DEGREE - azimuth_deg));
-        deck->parm[1] = card_value(r->sun.zenith_rad / DEGREE);
-    }
-}
-
-/* The run towards the sun; by night towards the zenith, for its profile alone. */
-static void set_sun(const recipe *r, card_deck *deck)
-{
-    set_scattering(r, deck, 0.0);
-    deck->itype = TO_SPACE;
-    deck->iemsct = TRANSMITTED_SUN;
-    deck->tbound_k = 0.0;
-    deck->h1_km = deck->gndalt_km;
-    deck->angle_deg = recipe_is_night(r) ? 0.0 : card_value(r->sun.zenith_rad / DEGREE);
-}
-
-static void set_path(const recipe *r, card_deck *deck, int path)
-{
-    const double ground_km = r->plan.ground_altitude_m / KILOMETRE;
-    const double sensor_km = r->plan.sensor_altitude_m / KILOMETRE;
-    const double zenith_deg = r->plan.path_zenith_first_deg + path * r->plan.path_zenith_step_deg;
-    const double nadir = asin((EARTH_RADIUS_KM + ground_km) / (EARTH_RADIUS_KM + sensor_km) *
-                              sin(zenith_deg * DEGREE));
-
-    set_scattering(r, deck, r->plan.sensor_azimuth_deg + 180.0);
-    deck->itype = BETWEEN;
-    deck->iemsct = RADIANCE;
-    deck->imult = 1;
-    deck->h1_km = card_value(sensor_km);
-    deck->h2_km = card_value(ground_km);
-    deck->angle_deg = card_value(180.0 - nadir / DEGREE);
-}
-
-static void set_sky(const recipe *r, card_deck *deck, const task *t)
-{
-    set_scattering(r, deck, t->azimuth * r->plan.sky_azimuth_step_deg);
-    deck->itype = TO_SPACE;
-    deck->iemsct = RADIANCE;
-    deck->imult = 1;
-    deck->h1_km = deck->gndalt_km;
-    deck->angle_deg = card_value(t->zenith * r->plan.sky_zenith_step_deg);
 }
 
 static double albedo_at(const atmosphere_plan *plan, double wavelength_um)
@@ -159,13 +54,15 @@ static double albedo_at(const atmosphere_plan *plan, double wavelength_um)
 
 static status write_deck(char **out, const recipe *r, const task *t)
 {
-    card_deck deck = {0};
     const atmosphere *a = r->air;
+    card_deck deck = recipe_deck_sun(&r->sight);
 
-    set_air(r, &deck);
-    if (t->gives == KIND_SUN) set_sun(r, &deck);
-    if (t->gives == KIND_PATH) set_path(r, &deck, t->path);
-    if (t->gives == KIND_SKY) set_sky(r, &deck, t);
+    if (t->gives == KIND_PATH)
+        deck = recipe_deck_path(&r->sight,
+                                a->path_zenith_first_deg + t->path * a->path_zenith_step_deg);
+    if (t->gives == KIND_SKY)
+        deck = recipe_deck_sky(&r->sight, t->zenith * a->zenith_step_deg,
+                               t->azimuth * a->azimuth_step_deg);
     if (t->gives != KIND_SUN)
         deck.salb = r->plan.thesis ? 1.0 : albedo_at(&r->plan, a->wavelength_um[t->first]);
     deck.v1_cm1 = a->wavenumber_cm1[t->last] - half_width(r);
@@ -230,7 +127,7 @@ static status add_pieces(recipe *r)
     int first = 0, piece = 1;
 
     r->tasks = calloc(most, sizeof *r->tasks);
-    r->decks = calloc(most, sizeof *r->decks);
+    r->decks = calloc(most + 1, sizeof *r->decks);
     r->names = calloc(most, sizeof *r->names);
     NEED(r->tasks && r->decks && r->names, STATUS_MEMORY, "%zu decks", most);
     for (int i = 1; i <= a->point_count; i++) {
@@ -307,8 +204,12 @@ status recipe_open(recipe **out, const atmosphere_plan *plan, const site *place,
 
     NEED(r, STATUS_MEMORY, "a radiance database");
     r->plan = *plan;
-    r->place = *place;
-    r->sun = sun_at(place->time_s, place->latitude_deg, place->longitude_deg);
+    r->sight = (recipe_sight){
+        .plan = &r->plan,
+        .place = *place,
+        .sun = sun_at(place->time_s, place->latitude_deg, place->longitude_deg),
+        .has_profile = *profile_cards != '\0',
+    };
     r->profile_cards = profile_cards;
     r->phase_cards = phase_cards;
     TRY(make_air(r));
@@ -323,11 +224,12 @@ out:
 void recipe_free(recipe *r)
 {
     if (!r) return;
-    for (size_t i = 0; r->decks && r->names && i <= r->count; i++) {
-        if (i == r->count) break;
+    /* A task that failed half-way is the one behind the last. */
+    for (size_t i = 0; i < r->count; i++) {
         free(r->decks[i]);
         free(r->names[i]);
     }
+    if (r->decks) free(r->decks[r->count]);
     free(r->decks);
     free(r->names);
     free(r->tasks);
@@ -352,12 +254,12 @@ const char *const *recipe_names(const recipe *r)
 
 sun_position recipe_sun(const recipe *r)
 {
-    return r->sun;
+    return r->sight.sun;
 }
 
 bool recipe_is_night(const recipe *r)
 {
-    return r->sun.zenith_rad >= M_PI / 2.0;
+    return recipe_sight_is_night(&r->sight);
 }
 
 /* Box averages by the trapezoid rule, from a run's spectrum to the points of a task; sums are in

@@ -23,6 +23,8 @@ static const char help[] =
     "  --keep-decks FOLDER   writes the card deck of each run there\n";
 
 #define THERMAL_FROM_UM 3.0
+#define NEAR_SUN_DEG 2.0
+#define DEGREE (M_PI / 180.0)
 
 typedef struct progress {
     recipe *r;
@@ -73,6 +75,24 @@ static void warn_of_night(const generation *g, const recipe *r)
                 g->s->path, recipe_sun(r).zenith_rad * 180.0 / M_PI - 90.0, THERMAL_FROM_UM);
 }
 
+/* Towards the sun LOWTRAN's single scattering peaks, and a table's cell would spread the peak. */
+static void warn_of_aureole(const generation *g, const recipe *r)
+{
+    const sun_position sun = recipe_sun(r);
+    const double zenith_step = g->plan.sky_zenith_step_deg * DEGREE;
+    const double azimuth_step = g->plan.sky_azimuth_step_deg * DEGREE;
+    const double zenith = zenith_step * round(sun.zenith_rad / zenith_step);
+    const double azimuth = azimuth_step * round(sun.azimuth_rad / azimuth_step);
+    const double off =
+        acos(fmin(1.0, cos(zenith) * cos(sun.zenith_rad) +
+                           sin(zenith) * sin(sun.zenith_rad) * cos(azimuth - sun.azimuth_rad)));
+
+    if (recipe_is_night(r) || off > NEAR_SUN_DEG * DEGREE) return;
+    status_warn("%s: a direction of the sky lies %.1f degrees from the sun, whose aureole is then "
+                "spread over a whole cell; choose another sky_step_deg for bands with sunlight",
+                g->s->path, off / DEGREE);
+}
+
 static status run(const char *scene_path, const tool_options *options)
 {
     status rc = STATUS_OK;
@@ -86,6 +106,7 @@ static status run(const char *scene_path, const tool_options *options)
     TRY(phase_table_cards(&phase_cards, g->plan.phase_table));
     TRY(recipe_open(&p.r, &g->plan, &g->s->place, profile_cards, phase_cards));
     warn_of_night(g, p.r);
+    warn_of_aureole(g, p.r);
     if (options->keep_decks) TRY(keep_decks(p.r, options->keep_decks));
     TRY(lowtran_run_decks(recipe_decks(p.r), recipe_names(p.r), recipe_count(p.r), take, &p));
     TRY(recipe_finish(p.r, &air));

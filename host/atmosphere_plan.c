@@ -122,10 +122,15 @@ static void read_spectrum(atmosphere_plan *plan, scene_table *t)
     scene_table_number(t, "wavenumber_step_cm1", 5.0, 1000.0, &plan->wavenumber_step_cm1);
     const double step = plan->wavenumber_step_cm1, low = plan->wavenumber_min_cm1;
     if (step <= 0.0 || low <= 0.0) return;
-    if (step != 5.0 && !is_multiple(step, 10.0))
+    plan->sample_step_cm1 = plan->thesis ? step : fmin(5.0, step);
+    scene_table_number(t, "sample_step_cm1", 5.0, step, &plan->sample_step_cm1);
+    const double sample = plan->sample_step_cm1;
+    if (!is_multiple(step, 5.0) || !is_multiple(sample, 5.0) ||
+        (step != sample && !is_multiple(step, 2.0 * sample)))
         scene_fail(t->reader, t->node,
-                   "%s.wavenumber_step_cm1: is %g, expected 5, or a multiple of 10",
-                   toml_node_name(t->node), step);
+                   "%s: wavenumber_step_cm1 is %g and sample_step_cm1 %g, expected multiples of 5, "
+                   "the first the second or an even multiple of it",
+                   toml_node_name(t->node), step, sample);
     else if (!is_multiple(low, 5.0) || plan->wavenumber_max_cm1 < low ||
              !is_multiple(plan->wavenumber_max_cm1 - low, step))
         scene_fail(t->reader, t->node,

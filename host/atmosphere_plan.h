@@ -29,7 +29,8 @@ typedef struct atmosphere_plan {
     double sensor_azimuth_deg; /* seen from the target, clockwise from north */
     double path_zenith_first_deg, path_zenith_last_deg, path_zenith_step_deg;
     double wavenumber_min_cm1, wavenumber_max_cm1, wavenumber_step_cm1;
-    int piece_count; /* of the spectrum, each with its albedo, by ascending wavelength */
+    double sample_step_cm1; /* at which LOWTRAN computes; averaged over the steps above */
+    int piece_count;        /* of the spectrum, each with its albedo, by ascending wavelength */
     double albedo[ATMOSPHERE_PLAN_PIECES];
     double edge_um[ATMOSPHERE_PLAN_PIECES]; /* between pieces: (piece_count - 1) */
     double sky_zenith_step_deg, sky_azimuth_step_deg;

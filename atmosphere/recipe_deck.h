@@ -1,0 +1,29 @@
+/* Recipe deck: the cards of each run that a radiance database needs. Thesis 2.4; the cards follow
+ * Kneizys and others (1988). */
+#ifndef RECIPE_DECK_H
+#define RECIPE_DECK_H
+
+#include "atmosphere_plan.h"
+#include "card_deck.h"
+#include "sun.h"
+
+/* From where and when all runs look. */
+typedef struct recipe_sight {
+    const atmosphere_plan *plan;
+    site place;
+    sun_position sun;
+    bool has_profile; /* the decks get an own profile */
+} recipe_sight;
+
+/* The centre of the sun is at or below the geometric horizon. */
+bool recipe_sight_is_night(const recipe_sight *r);
+
+/* Each returns a deck without albedo and wavenumbers. The first looks at the sun, by night at the
+ * zenith, for its profile alone; the second from the sensor down to where its zenith angle is the
+ * stated one; the third from the ground up. In mode thesis TBOUND and the sun are those of Appendix
+ * A item 2. */
+card_deck recipe_deck_sun(const recipe_sight *r);
+card_deck recipe_deck_path(const recipe_sight *r, double zenith_deg);
+card_deck recipe_deck_sky(const recipe_sight *r, double zenith_deg, double azimuth_deg);
+
+#endif
