@@ -83,7 +83,7 @@ static status open_answer(trace_answer **out, device *dev)
 
     NEED(a, STATUS_MEMORY, "no memory for a batch of rays");
     *out = a;
-    TRY(device_allocate(dev, &a->ray, sizeof(float[RAY_BATCH_SIZE][6]), NULL));
+    TRY(device_allocate(dev, &a->ray, sizeof(float[6][RAY_BATCH_SIZE]), NULL));
     TRY(device_allocate(dev, &a->range, sizeof a->range_host, NULL));
     TRY(device_allocate(dev, &a->facet, sizeof a->facet_host, NULL));
     TRY(device_allocate(dev, &a->met, sizeof a->met_host, NULL));
@@ -107,12 +107,12 @@ static status cast(const ray_scene *scene, const ray_batch *batch, bool any_hit,
     device *dev = ray_scene_device(scene);
     const uint32_t n = batch->count;
 
-    TRY(device_upload(dev, a->ray, 0, n * sizeof *batch->ray, batch->ray));
+    TRY(device_upload(dev, a->ray, 0, sizeof batch->ray, batch->ray));
     if (any_hit) {
-        TRY(ray_scene_occluded(scene, n, a->ray, a->met));
+        TRY(ray_scene_occluded(scene, n, RAY_BATCH_SIZE, a->ray, a->met));
         TRY(device_download(dev, a->met, 0, n, a->met_host));
     } else {
-        TRY(ray_scene_trace(scene, n, a->ray, a->range, a->facet));
+        TRY(ray_scene_trace(scene, n, RAY_BATCH_SIZE, a->ray, a->range, a->facet));
         TRY(device_download(dev, a->range, 0, n * sizeof(float), a->range_host));
         TRY(device_download(dev, a->facet, 0, n * sizeof(uint32_t), a->facet_host));
     }

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KERNEL_LIMIT = 32, LOCAL_SIZE = 64 };
+enum { KERNEL_LIMIT = 32, PACKET = 16 };
 
 /* Times are kept as events until someone waits; then they are added up. */
 enum { PENDING_LIMIT = 1024 };
@@ -38,6 +38,16 @@ struct device {
     size_t pending_count;
 };
 
+/* A packet a work-item where there are vectors. */
+static uint32_t choose_ray_lanes(const device_info *info)
+{
+    const char *wanted = getenv("RADSIG_RAY_LANES");
+
+    if (wanted && !strcmp(wanted, "1")) return 1;
+    if (wanted && !strcmp(wanted, "16")) return PACKET;
+    return strcmp(info->type, "cpu") ? 1 : PACKET;
+}
+
 static void describe(device_info *info, cl_platform_id platform, cl_device_id id)
 {
     cl_device_type type = 0;
@@ -56,6 +66,7 @@ static void describe(device_info *info, cl_platform_id platform, cl_device_id id
     strcpy(info->type, type & CL_DEVICE_TYPE_CPU   ? "cpu"
                        : type & CL_DEVICE_TYPE_GPU ? "gpu"
                                                    : "accelerator");
+    info->ray_lanes = choose_ray_lanes(info);
     info->compute_units = units;
     info->memory_bytes = memory;
     info->allocation_bytes = allocation;
@@ -281,12 +292,13 @@ static status build_kernel(device *dev, const char *name, device_kernel *out)
     status rc = STATUS_OK;
     cl_int error;
     cl_program program = NULL;
-    char *text = NULL;
+    char *text = NULL, options[64];
 
     TRY(kernel_source_read(&text, name));
     program = clCreateProgramWithSource(dev->context, 1, (const char **)&text, NULL, &error);
     NEED(program, STATUS_DEVICE, "kernel %s: %s", name, device_error(error));
-    error = clBuildProgram(program, 1, &dev->id, "-cl-std=CL1.2", NULL, NULL);
+    snprintf(options, sizeof options, "-cl-std=CL1.2 -DRAY_LANES=%u", dev->info.ray_lanes);
+    error = clBuildProgram(program, 1, &dev->id, options, NULL, NULL);
     if (error != CL_SUCCESS) TRY(build_failure(dev, name, program, error));
     out->kernel = clCreateKernel(program, name, &error);
     if (!out->kernel) TRY(build_failure(dev, name, program, error));
@@ -341,8 +353,8 @@ status device_launch(device *dev, const char *name, device_shape shape,
                      const device_argument *arguments, size_t argument_count)
 {
     status rc = STATUS_OK;
-    const size_t local[2] = {LOCAL_SIZE, 1};
-    const size_t global[2] = {(shape.size[0] + LOCAL_SIZE - 1) / LOCAL_SIZE * LOCAL_SIZE,
+    const size_t local[2] = {shape.local, 1};
+    const size_t global[2] = {(shape.size[0] + shape.local - 1) / shape.local * shape.local,
                               shape.size[1]};
     cl_event event;
     cl_int error;
@@ -359,6 +371,14 @@ status device_launch(device *dev, const char *name, device_shape shape,
     dev->pending[dev->pending_count++] = (device_launch_event){event, index};
 out:
     return rc;
+}
+
+device_shape device_ray_shape(const device *dev, size_t rays, size_t y)
+{
+    const size_t lanes = dev->info.ray_lanes;
+
+    /* A packet's stack is large: a group of few stays in the cache. */
+    return (device_shape){{(rays + lanes - 1) / lanes, y}, lanes == 1 ? 64 : 4};
 }
 
 status device_times(device *dev, const device_time **out, size_t *out_count)

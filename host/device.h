@@ -17,6 +17,8 @@ typedef struct device_info {
     char platform[64], name[64], version[64], type[16];
     uint32_t compute_units;
     uint64_t memory_bytes, allocation_bytes;
+    uint32_t
+        ray_lanes; /* rays of a work-item: 16 on CPUs, else 1; RADSIG_RAY_LANES says otherwise */
     bool is_default;
 } device_info;
 
@@ -44,17 +46,21 @@ status device_download(device *dev, device_memory memory, size_t offset, size_t 
 
 typedef struct device_shape {
     size_t size[2];
+    size_t local; /* work-items of a group, along x */
 } device_shape;
 
 static inline device_shape shape1(size_t x)
 {
-    return (device_shape){{x, 1}};
+    return (device_shape){{x, 1}, 64};
 }
 
 static inline device_shape shape2(size_t x, size_t y)
 {
-    return (device_shape){{x, y}};
+    return (device_shape){{x, y}, 64};
 }
+
+/* Launches whose work-items have ray_lanes rays each: `rays` of them along x. */
+device_shape device_ray_shape(const device *dev, size_t rays, size_t y);
 
 typedef struct device_argument {
     size_t size;

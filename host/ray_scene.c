@@ -85,22 +85,28 @@ world_record ray_scene_world(const ray_scene *scene)
 status ray_scene_primary(const ray_scene *scene, const camera_record *camera, uint32_t columns,
                          uint32_t first_pixel, uint32_t count, device_memory out_hit)
 {
-    return device_run(scene->dev, "primary", shape1(count), ARG(count), ARG(first_pixel),
-                      ARG(columns), ARG(*camera), ARG(scene->world), ARG(scene->node),
-                      ARG(scene->block), ARG(out_hit));
+    const uint32_t side = device_describe(scene->dev)->ray_lanes == 1 ? 1 : 4;
+    const uint32_t rows = (first_pixel + count + columns - 1) / columns - first_pixel / columns;
+    const device_shape shape =
+        device_ray_shape(scene->dev, (size_t)columns * side, (rows + side - 1) / side);
+
+    return device_run(scene->dev, "primary", shape, ARG(count), ARG(first_pixel), ARG(columns),
+                      ARG(*camera), ARG(scene->world), ARG(scene->node), ARG(scene->block),
+                      ARG(out_hit));
 }
 
-status ray_scene_trace(const ray_scene *scene, uint32_t count, device_memory ray,
+status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t stride, device_memory rays,
                        device_memory out_range, device_memory out_facet)
 {
-    return device_run(scene->dev, "trace", shape1(count), ARG(count), ARG(scene->world),
-                      ARG(scene->node), ARG(scene->block), ARG(ray), ARG(out_range),
-                      ARG(out_facet));
+    return device_run(scene->dev, "trace", device_ray_shape(scene->dev, count, 1), ARG(count),
+                      ARG(stride), ARG(scene->world), ARG(scene->node), ARG(scene->block),
+                      ARG(rays), ARG(out_range), ARG(out_facet));
 }
 
-status ray_scene_occluded(const ray_scene *scene, uint32_t count, device_memory ray,
-                          device_memory out_met)
+status ray_scene_occluded(const ray_scene *scene, uint32_t count, uint32_t stride,
+                          device_memory rays, device_memory out_met)
 {
-    return device_run(scene->dev, "occluded", shape1(count), ARG(count), ARG(scene->world),
-                      ARG(scene->node), ARG(scene->block), ARG(ray), ARG(out_met));
+    return device_run(scene->dev, "occluded", device_ray_shape(scene->dev, count, 1), ARG(count),
+                      ARG(stride), ARG(scene->world), ARG(scene->node), ARG(scene->block),
+                      ARG(rays), ARG(out_met));
 }

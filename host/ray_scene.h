@@ -33,15 +33,15 @@ status ray_scene_primary(const ray_scene *scene, const camera_record *camera, ui
                          uint32_t first_pixel, uint32_t count, device_memory out_hit);
 
 /* Casts any rays. Direction need not be unit; ranges are in its lengths, above 0.
- *   ray         float, shape (count, 6): origin, direction
+ *   rays        float, shape (6, stride), stride >= count: origins, directions
  *   out_range   float, shape (count): INFINITY for a miss
  *   out_facet   uint32, shape (count): RECORD_NONE for a miss; of equal ranges the lowest facet */
-status ray_scene_trace(const ray_scene *scene, uint32_t count, device_memory ray,
+status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t stride, device_memory rays,
                        device_memory out_range, device_memory out_facet);
 
 /* As ray_scene_trace, but only tells whether a ray meets anything.
  *   out_met   uint8, shape (count): 0 or 1 */
-status ray_scene_occluded(const ray_scene *scene, uint32_t count, device_memory ray,
-                          device_memory out_met);
+status ray_scene_occluded(const ray_scene *scene, uint32_t count, uint32_t stride,
+                          device_memory rays, device_memory out_met);
 
 #endif

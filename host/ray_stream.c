@@ -11,7 +11,7 @@ static status add_ray(ray_stream *stream, ray_batch *batch, const double ray[6])
     const char *unit = stream->binary ? "ray" : "line";
     double largest = 0, square = 0;
     int exponent = 0;
-    float *out = batch->ray[batch->count];
+    float out[6];
 
     stream->ray_count++;
     for (int k = 0; k < 6; k++)
@@ -26,6 +26,7 @@ static status add_ray(ray_stream *stream, ray_batch *batch, const double ray[6])
         out[3 + k] = (float)ldexp(ray[3 + k], -exponent);
         square += (double)out[3 + k] * (double)out[3 + k];
     }
+    for (int k = 0; k < 6; k++) batch->ray[k][batch->count] = out[k];
     batch->length[batch->count++] = sqrt(square);
 out:
     return rc;

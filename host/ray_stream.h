@@ -12,8 +12,8 @@ enum { RAY_BATCH_SIZE = 1 << 16 };
 
 typedef struct ray_batch {
     uint32_t count;
-    float ray[RAY_BATCH_SIZE][6];  /* origin, direction; scaled by a power of two, so that it turns
-                                      by nothing and overflows nowhere */
+    float ray[6][RAY_BATCH_SIZE];  /* origins, directions; these are scaled by a power of two, so
+                                      that they turn by nothing and overflow nowhere */
     double length[RAY_BATCH_SIZE]; /* m per length of the scaled direction */
 } ray_batch;
 

@@ -149,10 +149,10 @@ status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
     const device_memory nodes = ray_scene_nodes(scene), blocks = ray_scene_blocks(scene);
     device *dev = ray_scene_device(scene);
 
-    TRY(device_run(dev, "hemisphere", shape2(points->count, grid->cell_count), ARG(points->count),
-                   ARG(grid->cell_count), ARG(towards[0]), ARG(towards[1]), ARG(towards[2]),
-                   ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell), ARG(points->hit),
-                   ARG(points->met)));
+    TRY(device_run(dev, "hemisphere", device_ray_shape(dev, points->count, grid->cell_count),
+                   ARG(points->count), ARG(grid->cell_count), ARG(towards[0]), ARG(towards[1]),
+                   ARG(towards[2]), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
+                   ARG(points->hit), ARG(points->met)));
     TRY(device_run(dev, "background", shape1(points->count), ARG(points->count),
                    ARG(grid->cell_count), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
                    ARG(tables->facet), ARG(tables->temperature_k), ARG(tables->material),

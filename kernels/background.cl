@@ -41,9 +41,9 @@ kernel void background(const uint count, const uint cell_count, const world_reco
     }
     if (all.met_count > 0) {
         const uint best = commonest(&all, material);
-        const hemisphere_frame frame = hemisphere_frame_of(at.normal);
+        const ray r = hemisphere_ray(&at, cell, all.first[best], &world);
         const hit_record record =
-            hemisphere_cast(&frame, &at, cell, all.first[best], &world, nodes, blocks);
+            hemisphere_record(&r, ray_closest(nodes, blocks, &r), &world, blocks);
         back.shape_factor = all.open[0] / (all.open[0] + all.blocked[0]);
         back.mean_temperature_k = all.base_k + all.excess_k / (float)all.met_count;
         back.material = all.material[best];

@@ -1,9 +1,9 @@
 #include "hemisphere.h"
 
 /* Casts the rays of the hemisphere above points.
- * Launch: (count, cell_count). sun_x, sun_y, sun_z: unit vector towards the sun; at or below the
- * horizon, and (0, 0, 0), nothing is lit. cell: (cell_count, 4) direction along upslope, across and
- * normal, weight; hit: (count);
+ * Launch: (count / RAY_LANES, rounded up, cell_count). sun_x, sun_y, sun_z: unit vector towards the
+ * sun; at or below the horizon, and (0, 0, 0), nothing is lit. cell: (cell_count, 4) direction along
+ * upslope, across and normal, weight; hit: (count);
  * out_met: (cell_count, count) the facet met, with HEMISPHERE_LIT where the sun reaches the point
  * met; RECORD_NONE for the sky and for points without a facet. */
 kernel void hemisphere(const uint count, const uint cell_count, const float sun_x,
@@ -11,22 +11,37 @@ kernel void hemisphere(const uint count, const uint cell_count, const float sun_
                        global const bvh_node *nodes, global const bvh_block *blocks,
                        global const float *cell, global const hit_record *hit, global uint *out_met)
 {
-    const uint i = get_global_id(0), c = get_global_id(1);
-    if (i >= count) return;
-    const hit_record at = hit[i];
-    const hemisphere_frame frame = hemisphere_frame_of(at.normal);
+    const uint first = get_global_id(0) * RAY_LANES, c = get_global_id(1);
+    if (first >= count) return;
     const float sun[3] = {sun_x, sun_y, sun_z};
-    uint met = RECORD_NONE;
+    ray_packet packet, shadow;
+    ray_packet_hit met;
+    uint lit = 0;
 
-    if (at.facet != RECORD_NONE) {
-        const hit_record record = hemisphere_cast(&frame, &at, cell, c, &world, nodes, blocks);
+    ray_packet_clear(&packet, &world);
+    for (uint i = 0; i < RAY_LANES && first + i < count; i++) {
+        const hit_record at = hit[first + i];
+        if (at.facet == RECORD_NONE) continue;
+        const ray r = hemisphere_ray(&at, cell, c, &world);
+        ray_packet_set(&packet, i, &r);
+    }
+    ray_packet_closest(nodes, blocks, &packet, &met);
+    ray_packet_clear(&shadow, &world);
+    for (uint i = 0; i < RAY_LANES; i++) {
+        if (!(packet.alive >> i & 1)) continue;
+        const ray r = ray_packet_get(&packet, i);
+        const hit_record record = hemisphere_record(&r, ray_packet_hit_of(&met, i), &world, blocks);
         const float facing =
             record.normal[0] * sun_x + record.normal[1] * sun_y + record.normal[2] * sun_z;
-        met = record.facet;
-        if (met != RECORD_NONE && sun_z > 0.0f && facing > 0.0f) {
-            const ray r = ray_leaving(&world, record.point, record.normal, sun);
-            if (met == world.ground_facet || !ray_any(nodes, blocks, &r)) met |= HEMISPHERE_LIT;
-        }
+        met.facet[i] = record.facet;
+        if (record.facet == RECORD_NONE || !(sun_z > 0 && facing > 0)) continue;
+        lit |= 1u << i;
+        const ray towards_sun = ray_leaving(&world, record.point, record.normal, sun);
+        if (record.facet != world.ground_facet) ray_packet_set(&shadow, i, &towards_sun);
     }
-    out_met[(size_t)c * count + i] = met;
+    lit &= ~ray_packet_any(nodes, blocks, &shadow);
+    for (uint i = 0; i < RAY_LANES && first + i < count; i++) {
+        const uint word = met.facet[i] | (lit >> i & 1 ? HEMISPHERE_LIT : 0);
+        out_met[(size_t)c * count + first + i] = packet.alive >> i & 1 ? word : RECORD_NONE;
+    }
 }

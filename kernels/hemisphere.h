@@ -2,7 +2,7 @@
 #ifndef HEMISPHERE_H
 #define HEMISPHERE_H
 
-#include "ray.h"
+#include "ray_packet.h"
 #include "records.h"
 
 /* Materials that are counted at one point. */
@@ -45,21 +45,27 @@ static inline void hemisphere_direction(const hemisphere_frame *f, const float i
             (in_frame[0] * f->upslope[k] + in_frame[1] * f->across[k]) + in_frame[2] * f->normal[k];
 }
 
-/* Casts ray `c` of the hemisphere above a point; what leaves the geometry going down meets the ground
- * plane if there is one.
+/* Ray `c` of the hemisphere above a point.
  *   cell   (cell_count, 4): direction along upslope, across and normal, weight */
-static inline hit_record hemisphere_cast(const hemisphere_frame *frame, const hit_record *at,
-                                         global const float *cell, const uint c,
-                                         const world_record *world, global const bvh_node *nodes,
-                                         global const bvh_block *blocks)
+static inline ray hemisphere_ray(const hit_record *at, global const float *cell, const uint c,
+                                 const world_record *world)
 {
+    const hemisphere_frame frame = hemisphere_frame_of(at->normal);
     float in_frame[4], direction[3];
 
     vstore4(vload4(c, cell), 0, in_frame);
-    hemisphere_direction(frame, in_frame, direction);
-    const ray r = ray_leaving(world, at->point, at->normal, direction);
-    hit_record record = ray_record(blocks, &r, ray_closest(nodes, blocks, &r));
-    if (record.facet == RECORD_NONE) ray_meet_ground(world, &r, &record);
+    hemisphere_direction(&frame, in_frame, direction);
+    return ray_leaving(world, at->point, at->normal, direction);
+}
+
+/* What such a ray met; what leaves the geometry going down meets the ground plane if there is one. */
+static inline hit_record hemisphere_record(const ray *r, const ray_hit met,
+                                           const world_record *world,
+                                           global const bvh_block *blocks)
+{
+    hit_record record = ray_record(blocks, r, met);
+
+    if (record.facet == RECORD_NONE) ray_meet_ground(world, r, &record);
     return record;
 }
 

@@ -1,22 +1,42 @@
-#include "ray.h"
+#include "ray_packet.h"
+
+/* The pixels of a ray packet: a square of 4 x 4, which keeps the rays together. */
+#define PRIMARY_SIDE (RAY_LANES == 16 ? 4u : 1u)
 
 /* Finds what the camera sees through the centre of each pixel; thesis 2.5.3.
- * Launch: (count). Pixels are counted along the rows; out_hit: (count), ranges in metres. */
+ * Launch: (columns, rows) / PRIMARY_SIDE, rounded up; rows: those that hold pixels first_pixel ..
+ * first_pixel + count - 1, counted along the rows. out_hit: (count), ranges in metres. */
 kernel void primary(const uint count, const uint first_pixel, const uint columns,
                     const camera_record camera, const world_record world,
                     global const bvh_node *nodes, global const bvh_block *blocks,
                     global hit_record *out_hit)
 {
-    const uint i = get_global_id(0);
-    if (i >= count) return;
-    const uint column = (first_pixel + i) % columns, row = (first_pixel + i) / columns;
-    const float3 direction =
-        normalize(vload3(0, camera.corner) + ((float)column + .5f) * vload3(0, camera.across) +
-                  ((float)row + .5f) * vload3(0, camera.down));
-    ray r = {.limit = MAXFLOAT, .cull_back = world.cull_back};
-    vstore3(vload3(0, camera.position), 0, r.origin);
-    vstore3(direction, 0, r.direction);
-    hit_record record = ray_record(blocks, &r, ray_closest(nodes, blocks, &r));
-    if (record.facet == RECORD_NONE) ray_meet_ground(&world, &r, &record);
-    out_hit[i] = record;
+    const uint left = get_global_id(0) * PRIMARY_SIDE;
+    const uint top = first_pixel / columns + get_global_id(1) * PRIMARY_SIDE;
+    if (left >= columns) return;
+    ray_packet packet;
+    ray_packet_hit hit;
+    uint pixel[RAY_LANES];
+
+    ray_packet_clear(&packet, &world);
+    for (uint i = 0; i < RAY_LANES; i++) {
+        const uint column = left + i % PRIMARY_SIDE, row = top + i / PRIMARY_SIDE;
+        pixel[i] = row * columns + column - first_pixel;
+        if (column >= columns || pixel[i] >= count) continue;
+        const float3 direction =
+            normalize(vload3(0, camera.corner) + ((float)column + .5f) * vload3(0, camera.across) +
+                      ((float)row + .5f) * vload3(0, camera.down));
+        ray r = {.limit = MAXFLOAT, .cull_back = world.cull_back};
+        vstore3(vload3(0, camera.position), 0, r.origin);
+        vstore3(direction, 0, r.direction);
+        ray_packet_set(&packet, i, &r);
+    }
+    ray_packet_closest(nodes, blocks, &packet, &hit);
+    for (uint i = 0; i < RAY_LANES; i++) {
+        if (!(packet.alive >> i & 1)) continue;
+        const ray r = ray_packet_get(&packet, i);
+        hit_record record = ray_record(blocks, &r, ray_packet_hit_of(&hit, i));
+        if (record.facet == RECORD_NONE) ray_meet_ground(&world, &r, &record);
+        out_hit[pixel[i]] = record;
+    }
 }

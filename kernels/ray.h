@@ -172,25 +172,30 @@ static inline void ray_visit_leaf(const ray_frame *f, global const bvh_block *bl
     }
 }
 
-/* Finds the nearest triangle. */
-static inline ray_hit ray_closest(global const bvh_node *nodes, global const bvh_block *blocks,
-                                  const ray *r)
+/* How far boxes are entered where the nearest range is `range`. */
+static inline float ray_reach(const float limit, const float range)
 {
-    const ray_frame f = ray_frame_of(r);
+    return fmin(limit, range) * (1.0f + 9.5367431640625e-7f);
+}
+
+/* Looks for nearer triangles below a child word. */
+static inline void ray_closest_below(const ray_frame *f, global const bvh_node *nodes,
+                                     global const bvh_block *blocks, uint word, const float most,
+                                     ray_hit *hit)
+{
     ulong stack[RAY_STACK_SIZE];
-    ray_hit hit = {INFINITY, RECORD_NONE, 0};
-    float limit = r->limit;
-    uint depth = 0, word = 0;
+    float limit = ray_reach(most, hit->range);
+    uint depth = 0;
 
     while (word != RAY_DONE) {
         if (word & BVH_LEAF) {
-            ray_visit_leaf(&f, blocks, word, r->limit, &hit);
-            limit = fmin(r->limit, hit.range) * (1.0f + 9.5367431640625e-7f);
+            ray_visit_leaf(f, blocks, word, most, hit);
+            limit = ray_reach(most, hit->range);
             word = ray_pop(stack, &depth, limit);
             continue;
         }
         float8 range;
-        const uint mask = ray_enters(&f, nodes + word, limit, &range);
+        const uint mask = ray_enters(f, nodes + word, limit, &range);
         global const uint *child = nodes[word].child;
         if (mask == 0) {
             word = ray_pop(stack, &depth, limit);
@@ -201,7 +206,40 @@ static inline ray_hit ray_closest(global const bvh_node *nodes, global const bvh
             word = (uint)stack[--depth];
         }
     }
+}
+
+/* Finds the nearest triangle. */
+static inline ray_hit ray_closest(global const bvh_node *nodes, global const bvh_block *blocks,
+                                  const ray *r)
+{
+    const ray_frame f = ray_frame_of(r);
+    ray_hit hit = {INFINITY, RECORD_NONE, 0};
+
+    ray_closest_below(&f, nodes, blocks, 0, r->limit, &hit);
     return hit;
+}
+
+/* Tells whether the ray meets anything below a child word. */
+static inline uint ray_any_below(const ray_frame *f, global const bvh_node *nodes,
+                                 global const bvh_block *blocks, const uint top, const float limit)
+{
+    uint stack[RAY_STACK_SIZE];
+    uint depth = 1;
+
+    stack[0] = top;
+    while (depth > 0) {
+        const uint word = stack[--depth];
+        float8 range;
+        if (word & BVH_LEAF) {
+            const uint first = (word & ~BVH_LEAF) >> 4, count = word & 15;
+            for (uint b = first; b < first + count; b++)
+                if (ray_meets(f, blocks + b, limit, &range)) return 1;
+            continue;
+        }
+        uint mask = ray_enters(f, nodes + word, limit, &range);
+        for (; mask; mask &= mask - 1) stack[depth++] = nodes[word].child[31 - clz(mask & -mask)];
+    }
+    return 0;
 }
 
 /* Tells whether the ray meets anything: a bit, because which triangle it would meet first hangs on
@@ -210,23 +248,8 @@ static inline uint ray_any(global const bvh_node *nodes, global const bvh_block 
                            const ray *r)
 {
     const ray_frame f = ray_frame_of(r);
-    uint stack[RAY_STACK_SIZE];
-    uint depth = 1;
 
-    stack[0] = 0;
-    while (depth > 0) {
-        const uint word = stack[--depth];
-        float8 range;
-        if (word & BVH_LEAF) {
-            const uint first = (word & ~BVH_LEAF) >> 4, count = word & 15;
-            for (uint b = first; b < first + count; b++)
-                if (ray_meets(&f, blocks + b, r->limit, &range)) return 1;
-            continue;
-        }
-        uint mask = ray_enters(&f, nodes + word, r->limit, &range);
-        for (; mask; mask &= mask - 1) stack[depth++] = nodes[word].child[31 - clz(mask & -mask)];
-    }
-    return 0;
+    return ray_any_below(&f, nodes, blocks, 0, r->limit);
 }
 
 /* The record of a hit: its point from the weights of the vertices, which is nearer to the facet than

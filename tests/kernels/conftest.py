@@ -3,6 +3,7 @@ import pathlib
 
 import pyopencl as cl
 import pytest
+from ray_world import RayWorld
 
 KERNELS = pathlib.Path(__file__).resolve().parents[2] / "kernels"
 
@@ -14,6 +15,12 @@ def context():
     devices = [d for p in cl.get_platforms() for d in p.get_devices()]
     cpus = [d for d in devices if d.type & cl.device_type.CPU]
     return cl.Context((cpus or devices)[:1])
+
+
+@pytest.fixture(params=[16, 1])
+def ray_lanes(request, monkeypatch):
+    """Runs a test with packets of rays, as on CPUs, and with single rays, as on GPUs."""
+    monkeypatch.setattr(RayWorld, "lanes", request.param)
 
 
 @pytest.fixture(scope="session")

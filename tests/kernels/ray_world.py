@@ -16,6 +16,8 @@ MATERIAL = np.dtype([("before", "f4", 9), ("number", "u4"), ("unused", "u4", 2)]
 
 
 class RayWorld:
+    lanes = 16  # rays of a work-item
+
     def __init__(self, opencl, mesh):
         self.opencl = opencl
         nodes, blocks, low, high = tree.build(*mesh)
@@ -29,32 +31,39 @@ class RayWorld:
         flags = cl.mem_flags.READ_ONLY | cl.mem_flags.COPY_HOST_PTR
         return cl.Buffer(self.opencl.context, flags, hostbuf=np.ascontiguousarray(array))
 
-    def run(self, name, count, arguments, *outputs, local=64, options=""):
-        """Launches over `count` with a size padded to `local`; returns the outputs."""
+    def run(self, name, count, arguments, *outputs, shape=None, local=64, options=""):
+        """Launches over `shape`, or `count` rays, with a size padded to `local`; returns the
+        outputs."""
         arrays = [np.empty(count, dtype) for dtype in outputs]
         memory = [cl.Buffer(self.opencl.context, cl.mem_flags.WRITE_ONLY, a.nbytes) for a in arrays]
-        size = (count + local - 1) // local * local
-        kernel = self.opencl.build(name, options)
-        kernel(self.opencl.queue, (size,), (local,), np.uint32(count), *arguments, *memory)
+        width, height = shape or (-(-count // self.lanes), 1)
+        size = (-(-width // local) * local, height)
+        kernel = self.opencl.build(name, f"-DRAY_LANES={self.lanes} {options}")
+        kernel(self.opencl.queue, size, (local, 1), np.uint32(count), *arguments, *memory)
         for array, buffer in zip(arrays, memory):
             cl.enqueue_copy(self.opencl.queue, array, buffer)
         return arrays
 
     def trace(self, rays, **how):
         """rays: (n, 6). Returns range, facet."""
-        rays = np.ascontiguousarray(rays, np.float32)
-        arguments = (self.world[0], self.nodes, self.blocks, self.copy(rays))
+        rays = np.asarray(rays, np.float32)
+        arguments = (np.uint32(len(rays)), self.world[0], self.nodes, self.blocks,
+                     self.copy(rays.T))
         return self.run("trace", len(rays), arguments, np.float32, np.uint32, **how)
 
     def occluded(self, rays, **how):
-        rays = np.ascontiguousarray(rays, np.float32)
-        arguments = (self.world[0], self.nodes, self.blocks, self.copy(rays))
+        rays = np.asarray(rays, np.float32)
+        arguments = (np.uint32(len(rays)), self.world[0], self.nodes, self.blocks,
+                     self.copy(rays.T))
         return self.run("occluded", len(rays), arguments, np.uint8, **how)[0]
 
     def primary(self, camera, columns, first, count, **how):
         arguments = (np.uint32(first), np.uint32(columns), camera[0], self.world[0], self.nodes,
                      self.blocks)
-        return self.run("primary", count, arguments, HIT, **how)[0]
+        side = 4 if self.lanes == 16 else 1
+        rows = -(-(first + count) // columns) - first // columns
+        shape = (-(-columns // side), -(-rows // side))
+        return self.run("primary", count, arguments, HIT, shape=shape, **how)[0]
 
     def sunlight(self, sun, hits, **how):
         arguments = (*np.float32(sun), self.world[0], self.nodes, self.blocks, self.copy(hits))
@@ -75,14 +84,16 @@ class RayWorld:
         met = self.cast(cell_count, cells, count, hits, sun, **how)
         rays = (np.uint32(cell_count), self.world[0], self.nodes, self.blocks)
         arguments = (*rays, cells, facets, temperature, materials, hits, self.copy(met))
-        return self.run("background", count, arguments, BACKGROUND, **how)[0]
+        shape = (count, 1)
+        return self.run("background", count, arguments, BACKGROUND, shape=shape, **how)[0]
 
     def cast(self, cell_count, cells, count, hits, sun, local=64, options=""):
         """The words of hemisphere.cl, shape (cell_count, count)."""
         met = np.empty((cell_count, count), np.uint32)
         memory = cl.Buffer(self.opencl.context, cl.mem_flags.WRITE_ONLY, met.nbytes)
-        size = ((count + local - 1) // local * local, cell_count)
-        kernel = self.opencl.build("hemisphere", options)
+        width = -(-count // self.lanes)
+        size = (-(-width // local) * local, cell_count)
+        kernel = self.opencl.build("hemisphere", f"-DRAY_LANES={self.lanes} {options}")
         kernel(self.opencl.queue, size, (local, 1), np.uint32(count), np.uint32(cell_count),
                *np.float32(sun), self.world[0], self.nodes, self.blocks, cells, hits, memory)
         cl.enqueue_copy(self.opencl.queue, met, memory)

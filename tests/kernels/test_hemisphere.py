@@ -8,6 +8,8 @@ from ray_world import NONE, RayWorld, grid, points
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import cases  # noqa: E402
 
+pytestmark = pytest.mark.usefixtures("ray_lanes")
+
 # What a direction at elevation e counts, by reading; eq. 2.4.2-6 with 2.4.2-7 is the last.
 READINGS = {
     "cosine": lambda e: np.sin(e) * np.cos(e),
@@ -189,7 +191,7 @@ def test_a_pixel_without_a_facet_has_factor_one_and_no_background(opencl):
     assert out["material"] == NONE and out["facet"] == NONE
 
 
-@pytest.mark.parametrize("local", [1, 16, 1024])
+@pytest.mark.parametrize("local", [1, 16, 64])
 def test_factors_do_not_depend_on_how_points_are_grouped(opencl, local):
     random = np.random.default_rng(1)
     normal = random.normal(size=(500, 3))

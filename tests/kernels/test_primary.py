@@ -8,6 +8,8 @@ from ray_world import CAMERA, NONE, RayWorld
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import cases  # noqa: E402
 
+pytestmark = pytest.mark.usefixtures("ray_lanes")
+
 
 def look_down(height, width, pixels):
     """A camera above the origin that sees `width` metres of the level z = 0; the top is north."""

@@ -8,6 +8,8 @@ from ray_world import NONE, RayWorld
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import cases  # noqa: E402
 
+pytestmark = pytest.mark.usefixtures("ray_lanes")
+
 MESHES = {
     "sphere": cases.icosphere(3),
     "soup": cases.triangle_soup(1000, seed=2),
@@ -259,7 +261,50 @@ def test_portable_masks_give_the_same_bits(opencl):
     assert np.array_equal(builtin[1], portable[1])
 
 
-@pytest.mark.parametrize("local", [1, 16, 1024])
+def streets():
+    """Long low walls and houses on a plane."""
+    random = np.random.default_rng(13)
+    at = random.uniform(-300, 300, (300, 2))
+    size = random.uniform(1, 40, (300, 3))
+    houses = [cases.box((x, y, 0), (x + a, y + b, c)) for (x, y), (a, b, c) in zip(at, size)]
+    walls = [cases.box((x, -1200, -1.5), (x + 5, 1100, -0.5)) for x in range(-400, 401, 100)]
+    return cases.join(cases.plane(500.0), *houses, *walls)
+
+
+def rays_from_surfaces(mesh, count, seed):
+    """Rays that leave facets a little above them; runs of rays from one facet are broken by others,
+    so that packets are mixed."""
+    vertices, _ = cases.triangles(*mesh)
+    random = np.random.default_rng(seed)
+    of = np.repeat(random.integers(len(vertices), size=count // 16), 16)
+    stray = random.random(count) < 0.1
+    of[stray] = random.integers(len(vertices), size=stray.sum())
+    a, b, c = vertices[of].transpose(1, 0, 2)
+    normal = unit(np.cross(b - a, c - a))
+    u, v = np.sort(random.random((2, count)), 0)[:, :, None]
+    origin = a * u + b * (v - u) + c * (1 - v) + 2.0**-20 * np.abs(mesh[1]).max() * normal
+    fixed = np.repeat(random.normal(size=(count // 16, 3)), 16, 0)
+    direction = fixed * np.sign((fixed * normal).sum(1))[:, None]
+    return np.hstack([origin, direction]).astype(np.float32)
+
+
+def test_packets_answer_as_single_rays(opencl, monkeypatch):
+    mesh = streets()
+    world = RayWorld(opencl, mesh)
+    rays = rays_from_surfaces(mesh, 1 << 17, seed=14)
+    monkeypatch.setattr(RayWorld, "lanes", 16)
+    range_m, facet = world.trace(rays, local=4)
+    met = world.occluded(rays, local=4)
+
+    monkeypatch.setattr(RayWorld, "lanes", 1)
+    single_m, single_facet = world.trace(rays)
+
+    assert range_m.tobytes() == single_m.tobytes()
+    assert np.array_equal(facet, single_facet)
+    assert np.array_equal(met, world.occluded(rays))
+
+
+@pytest.mark.parametrize("local", [1, 16, 64])
 def test_answers_do_not_depend_on_how_rays_are_grouped(opencl, local):
     world = RayWorld(opencl, MESHES["soup"])
     rays = random_rays(5000, seed=12)

@@ -8,6 +8,8 @@ from ray_world import NONE, RayWorld, points
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import cases  # noqa: E402
 
+pytestmark = pytest.mark.usefixtures("ray_lanes")
+
 UP = (0, 0, 1)
 SUN_30 = (0, -np.cos(np.radians(30)), 0.5)  # in the south, 30 degrees high
 

@@ -1,0 +1,233 @@
+/* Ray lanes: 16 rays made ready, and their tests against boxes and triangles. What is computed is what
+ * ray.h and triangle.h compute, operation by operation. */
+#ifndef RAY_LANES_H
+#define RAY_LANES_H
+
+#include "ray.h"
+
+/* Bounds over the lanes of where they pass a plane of a box, along one axis: the two extreme
+ * reciprocals, each with what ray_frame calls near and far. */
+typedef struct ray_lanes_bound {
+    float reciprocal[2], near[2], far[2];
+} ray_lanes_bound;
+
+/* A lane that is not alive is a copy of one that is, so that it widens no bounds. The shear is that of
+ * triangle.h, but x and y never change places: that would change the signs of all edges and nothing
+ * else. */
+typedef struct ray_lanes {
+    float16 reciprocal[3], near[3], far[3];
+    float16 origin[3]; /* along the shear's x, y and z */
+    float16 slope_x, slope_y, scale_z;
+    int16 along_y, along_z; /* the shear's z is that axis of the world, else x */
+    int16 reversed;         /* the direction's largest component is negative */
+    uint axis;              /* the shear's z of all lanes, 3 where they differ */
+    uint octant;            /* of the first lane: bit 0 x, 1 y, 2 z negative */
+    uint coherent;          /* all lanes have this octant: bound is set */
+    uint cull_back;
+    ray_lanes_bound bound[3];
+} ray_lanes;
+
+/* The signs of the lanes as bits. */
+static inline uint ray_lanes_mask(const int16 lanes)
+{
+#if defined(__AVX512DQ__) && !defined(RAY_PORTABLE)
+    return (ushort)__builtin_ia32_cvtd2mask512(lanes);
+#else
+    return ray_mask(lanes.lo) | ray_mask(lanes.hi) << 8;
+#endif
+}
+
+static inline int16 ray_lanes_of_mask(const uint mask)
+{
+    const int16 bit = {1 << 0, 1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
+                       1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
+
+    return ((int16)(int)mask & bit) != 0;
+}
+
+static inline float16 ray_lanes_least(const float16 a, const float16 b)
+{
+    return a < b ? a : b;
+}
+
+static inline float16 ray_lanes_most(const float16 a, const float16 b)
+{
+    return a > b ? a : b;
+}
+
+static inline float ray_lanes_lowest(const float16 a)
+{
+    const float8 eight = ray_least(a.lo, a.hi);
+    const float4 four = eight.lo < eight.hi ? eight.lo : eight.hi;
+    const float2 two = four.lo < four.hi ? four.lo : four.hi;
+
+    return two.x < two.y ? two.x : two.y;
+}
+
+static inline float ray_lanes_highest(const float16 a)
+{
+    return -ray_lanes_lowest(-a);
+}
+
+static inline void ray_lanes_set_shear(ray_lanes *f, const float16 o[3], const float16 d[3])
+{
+    const int16 y_over_x = fabs(d[1]) > fabs(d[0]);
+    const int16 along_z = fabs(d[2]) > (y_over_x ? fabs(d[1]) : fabs(d[0]));
+    const int16 along_y = y_over_x & ~along_z;
+    const float16 z = along_z ? d[2] : along_y ? d[1] : d[0];
+    const uint y_lanes = ray_lanes_mask(along_y), z_lanes = ray_lanes_mask(along_z);
+
+    f->along_y = along_y;
+    f->along_z = along_z;
+    f->slope_x = (along_z ? d[0] : along_y ? d[2] : d[1]) / z;
+    f->slope_y = (along_z ? d[1] : along_y ? d[0] : d[2]) / z;
+    f->scale_z = 1.0f / z;
+    f->origin[0] = along_z ? o[0] : along_y ? o[2] : o[1];
+    f->origin[1] = along_z ? o[1] : along_y ? o[0] : o[2];
+    f->origin[2] = along_z ? o[2] : along_y ? o[1] : o[0];
+    f->reversed = z < 0.0f;
+    f->axis = 3;
+    if (z_lanes == 0xffff) f->axis = 2;
+    if (y_lanes == 0xffff) f->axis = 1;
+    if ((y_lanes | z_lanes) == 0) f->axis = 0;
+}
+
+/* Twice the pad of a ray, so that no rounding makes the bounds narrower than a ray's own. */
+static inline void ray_lanes_set_bound(ray_lanes *f, const int k, const float16 origin,
+                                       const float pad)
+{
+    ray_lanes_bound *b = &f->bound[k];
+    const float low = ray_lanes_lowest(origin) - 2.0f * pad;
+    const float high = ray_lanes_highest(origin) + 2.0f * pad;
+    const uint negative = f->octant >> k & 1;
+
+    b->reciprocal[0] = ray_lanes_lowest(f->reciprocal[k]);
+    b->reciprocal[1] = ray_lanes_highest(f->reciprocal[k]);
+    for (int i = 0; i < 2; i++) {
+        b->near[i] = -(negative ? low : high) * b->reciprocal[i];
+        b->far[i] = -(negative ? high : low) * b->reciprocal[i];
+    }
+}
+
+/* Makes 16 rays ready; `alive`: a bit per lane in use, at least one. */
+static inline ray_lanes ray_lanes_of(const float origin[3][16], const float direction[3][16],
+                                     const uint alive, const uint cull_back)
+{
+    const uint first = 31 - clz(alive & -alive);
+    const int16 in_use = ray_lanes_of_mask(alive);
+    ray_lanes f = {.octant = 0, .coherent = 1, .cull_back = cull_back};
+    float16 o[3], d[3], reach = 0;
+
+    for (int k = 0; k < 3; k++) {
+        o[k] = in_use ? vload16(0, origin[k]) : (float16)origin[k][first];
+        d[k] = in_use ? vload16(0, direction[k]) : (float16)direction[k][first];
+        reach = ray_lanes_most(fabs(o[k]), reach);
+    }
+    ray_lanes_set_shear(&f, o, d);
+    const float16 pad = 4.76837158203125e-7f * reach;
+    for (int k = 0; k < 3; k++) {
+        const float16 least = copysign((float16)1e-18f, d[k]);
+        f.reciprocal[k] = 1.0f / (fabs(d[k]) < 1e-18f ? least : d[k]);
+        f.near[k] = -o[k] * f.reciprocal[k] - pad * fabs(f.reciprocal[k]);
+        f.far[k] = -o[k] * f.reciprocal[k] + pad * fabs(f.reciprocal[k]);
+        const uint negative = ray_lanes_mask(f.reciprocal[k] < 0.0f);
+        f.octant |= (negative >> first & 1) << k;
+        f.coherent &= negative == 0 || negative == 0xffff;
+    }
+    for (int k = 0; k < 3 && f.coherent; k++)
+        ray_lanes_set_bound(&f, k, o[k], ray_lanes_highest(pad));
+    return f;
+}
+
+/* Finds the children that a ray of the packet may enter before `limit`: a bit each. */
+static inline uint ray_lanes_reach(const ray_lanes *f, global const bvh_node *node,
+                                   const float limit)
+{
+    float8 from = 0, to = limit;
+
+    for (int k = 0; k < 3; k++) {
+        global const float *low = node->low[k], *high = node->high[k];
+        const uint negative = f->octant >> k & 1;
+        const float8 a = *(global const float8 *)(negative ? high : low);
+        const float8 b = *(global const float8 *)(negative ? low : high);
+        const ray_lanes_bound *n = &f->bound[k];
+        from = ray_most(ray_least(fma(a, (float8)n->reciprocal[0], (float8)n->near[0]),
+                                  fma(a, (float8)n->reciprocal[1], (float8)n->near[1])),
+                        from);
+        to = ray_least(ray_most(fma(b, (float8)n->reciprocal[0], (float8)n->far[0]),
+                                fma(b, (float8)n->reciprocal[1], (float8)n->far[1])),
+                       to);
+    }
+    return ray_mask(from <= to);
+}
+
+/* Finds the rays that enter a child before their limits, and where: all bits of a lane. */
+static inline int16 ray_lanes_enter(const ray_lanes *f, global const bvh_node *node,
+                                    const uint child, const float16 limit, float16 *out_range)
+{
+    float16 from = 0, to = limit;
+
+    for (int k = 0; k < 3; k++) {
+        const float16 low = node->low[k][child], high = node->high[k][child];
+        float16 a, b;
+        if (f->coherent) {
+            const uint negative = f->octant >> k & 1;
+            a = negative ? high : low;
+            b = negative ? low : high;
+        } else {
+            const int16 negative = f->reciprocal[k] < 0.0f;
+            a = negative ? high : low;
+            b = negative ? low : high;
+        }
+        from = ray_lanes_most(fma(a, f->reciprocal[k], f->near[k]), from);
+        to = ray_lanes_least(fma(b, f->reciprocal[k], f->far[k]), to);
+    }
+    *out_range = from;
+    return from <= to;
+}
+
+/* Shears the corners of a triangle. */
+static inline void ray_lanes_shear(const ray_lanes *f, global const bvh_block *block,
+                                   const uint lane, float16 x[3], float16 y[3], float16 z[3])
+{
+    const uint axis_x = f->axis == 2 ? 0 : f->axis + 1, axis_y = f->axis == 0 ? 2 : f->axis - 1;
+
+    for (int v = 0; v < 3; v++) {
+        float16 at[3];
+        if (f->axis < 3) {
+            at[0] = block->vertex[v][axis_x][lane];
+            at[1] = block->vertex[v][axis_y][lane];
+            at[2] = block->vertex[v][f->axis][lane];
+        } else {
+            const float16 east = block->vertex[v][0][lane], north = block->vertex[v][1][lane],
+                          up = block->vertex[v][2][lane];
+            at[0] = f->along_z ? east : f->along_y ? up : north;
+            at[1] = f->along_z ? north : f->along_y ? east : up;
+            at[2] = f->along_z ? up : f->along_y ? north : east;
+        }
+        z[v] = at[2] - f->origin[2];
+        x[v] = (at[0] - f->origin[0]) - f->slope_x * z[v];
+        y[v] = (at[1] - f->origin[1]) - f->slope_y * z[v];
+    }
+}
+
+/* Finds the rays that meet a triangle up to their limits, and where: all bits of a lane. */
+static inline int16 ray_lanes_meet(const ray_lanes *f, global const bvh_block *block,
+                                   const uint lane, const float16 limit, float16 *out_range)
+{
+    float16 x[3], y[3], z[3];
+
+    ray_lanes_shear(f, block, lane, x, y, z);
+    const float16 a = x[2] * y[1] - y[2] * x[1];
+    const float16 b = x[0] * y[2] - y[0] * x[2];
+    const float16 c = x[1] * y[0] - y[1] * x[0];
+    const float16 determinant = (a + b) + c;
+    const float16 range = ((a * z[0] + b * z[1]) + c * z[2]) * f->scale_z / determinant;
+    const int16 front = (a >= 0.0f) & (b >= 0.0f) & (c >= 0.0f);
+    const int16 back = (a <= 0.0f) & (b <= 0.0f) & (c <= 0.0f);
+    const int16 met = f->cull_back ? (f->reversed ? back : front) : front | back;
+    *out_range = range;
+    return met & (determinant != 0.0f) & (range > 0.0f) & (range <= limit);
+}
+
+#endif

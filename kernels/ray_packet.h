@@ -1,0 +1,296 @@
+/* Ray packet: finds what RAY_LANES neighbouring rays meet, with the answers of ray.h, bit for bit. On
+ * CPUs a work-item has 16 rays, each a lane of float16; on GPUs it has one (RAY_LANES 1, ray.h).
+ *
+ * A node is first tested against the bounds of the packet, then each of its children against all
+ * rays. Where few rays are left they go on one by one. A ray's answer never depends on its
+ * neighbours: only tests that lose nothing (ray.h) are shared. */
+#ifndef RAY_PACKET_H
+#define RAY_PACKET_H
+
+#include "ray.h"
+
+#ifndef RAY_LANES
+#define RAY_LANES 1
+#endif
+
+/* Rays that share a world; a bit in `alive` per lane in use. */
+typedef struct ray_packet {
+    float origin[3][RAY_LANES], direction[3][RAY_LANES];
+    uint alive;
+    uint cull_back;
+} ray_packet;
+
+/* What the lanes met, as ray_hit has it. */
+typedef struct ray_packet_hit {
+    float range[RAY_LANES];
+    uint facet[RAY_LANES];
+    uint triangle[RAY_LANES];
+} ray_packet_hit;
+
+static inline void ray_packet_clear(ray_packet *p, const world_record *world)
+{
+    p->alive = 0;
+    p->cull_back = world->cull_back;
+}
+
+static inline void ray_packet_set(ray_packet *p, const uint lane, const ray *r)
+{
+    for (int k = 0; k < 3; k++) {
+        p->origin[k][lane] = r->origin[k];
+        p->direction[k][lane] = r->direction[k];
+    }
+    p->alive |= 1u << lane;
+}
+
+/* Takes up to RAY_LANES rays that lie by component, `stride` numbers each.
+ *   ray   (6, stride), moved to the first of them: origins, directions */
+static inline ray_packet ray_packet_load(const world_record *world, global const float *rays,
+                                         const uint stride, const uint count)
+{
+    ray_packet p;
+
+    ray_packet_clear(&p, world);
+    p.alive = count < RAY_LANES ? (1u << count) - 1 : RAY_LANES == 16 ? 0xffff : 1;
+    for (uint i = 0; i < RAY_LANES; i++)
+        for (uint k = 0; k < 3; k++) {
+            p.origin[k][i] = i < count ? rays[(size_t)k * stride + i] : 0.0f;
+            p.direction[k][i] = i < count ? rays[(size_t)(k + 3) * stride + i] : 1.0f;
+        }
+    return p;
+}
+
+static inline ray ray_packet_get(const ray_packet *p, const uint lane)
+{
+    ray r = {.limit = MAXFLOAT, .cull_back = p->cull_back};
+
+    for (int k = 0; k < 3; k++) {
+        r.origin[k] = p->origin[k][lane];
+        r.direction[k] = p->direction[k][lane];
+    }
+    return r;
+}
+
+static inline ray_hit ray_packet_hit_of(const ray_packet_hit *hit, const uint lane)
+{
+    return (ray_hit){hit->range[lane], hit->facet[lane], hit->triangle[lane]};
+}
+
+#if RAY_LANES == 16
+
+#include "ray_lanes.h"
+
+/* Where this many rays are left they go on one by one: below a node, and in a leaf. */
+#define RAY_PACKET_FEW_IN_NODE 2
+#define RAY_PACKET_FEW_IN_LEAF 4
+
+/* A packet on its way through the tree; frames of single rays are made when they are needed. */
+typedef struct ray_packet_walk {
+    ray_lanes lanes;
+    const ray_packet *packet;
+    ray_frame frame[16];
+    uint framed; /* a bit per frame that is made */
+} ray_packet_walk;
+
+static inline ray_packet_walk ray_packet_start(const ray_packet *p)
+{
+    ray_packet_walk w;
+
+    w.lanes = ray_lanes_of(p->origin, p->direction, p->alive, p->cull_back);
+    w.packet = p;
+    w.framed = 0;
+    return w;
+}
+
+static inline const ray_frame *ray_packet_frame(ray_packet_walk *w, const uint lane)
+{
+    if (!(w->framed >> lane & 1)) {
+        const ray r = ray_packet_get(w->packet, lane);
+        w->frame[lane] = ray_frame_of(&r);
+        w->framed |= 1u << lane;
+    }
+    return &w->frame[lane];
+}
+
+static inline uint ray_packet_next(uint *mask)
+{
+    const uint lane = 31 - clz(*mask & -*mask);
+
+    *mask &= *mask - 1;
+    return lane;
+}
+
+/* The nearest that the lanes have met so far. */
+typedef struct ray_packet_nearest {
+    float16 range; /* MAXFLOAT where nothing was met, below 0 in lanes that are not alive */
+    uint16 facet, triangle;
+} ray_packet_nearest;
+
+/* Lets single rays look for nearer triangles below a child word. */
+static inline void ray_packet_closest_single(ray_packet_walk *w, global const bvh_node *nodes,
+                                             global const bvh_block *blocks, const uint word,
+                                             uint active, ray_packet_nearest *best)
+{
+    ray_packet_hit all;
+
+    vstore16(best->range, 0, all.range);
+    vstore16(best->facet, 0, all.facet);
+    vstore16(best->triangle, 0, all.triangle);
+    while (active) {
+        const uint lane = ray_packet_next(&active);
+        const ray_frame *f = ray_packet_frame(w, lane);
+        ray_hit hit = ray_packet_hit_of(&all, lane);
+        ray_closest_below(f, nodes, blocks, word, MAXFLOAT, &hit);
+        all.range[lane] = hit.range;
+        all.facet[lane] = hit.facet;
+        all.triangle[lane] = hit.triangle;
+    }
+    best->range = vload16(0, all.range);
+    best->facet = vload16(0, all.facet);
+    best->triangle = vload16(0, all.triangle);
+}
+
+/* Looks for nearer triangles in a leaf, for all lanes at once. */
+static inline void ray_packet_closest_leaf(const ray_lanes *f, global const bvh_block *blocks,
+                                           const uint leaf, const int16 active,
+                                           ray_packet_nearest *best)
+{
+    const uint first = (leaf & ~BVH_LEAF) >> 4, count = leaf & 15;
+
+    for (uint b = first; b < first + count; b++)
+        for (uint i = 0; i < 8 && blocks[b].facet[i] != RECORD_NONE; i++) {
+            const uint16 facet = blocks[b].facet[i];
+            float16 range;
+            const int16 met = ray_lanes_meet(f, blocks + b, i, best->range, &range) & active;
+            const int16 nearer = met & ((range < best->range) | (facet < best->facet));
+            best->range = nearer ? range : best->range;
+            best->facet = as_uint16(nearer) ? facet : best->facet;
+            best->triangle = as_uint16(nearer) ? (uint16)(b * 8 + i) : best->triangle;
+        }
+}
+
+/* Finds the nearest triangle of each lane. */
+static inline void ray_packet_closest(global const bvh_node *nodes, global const bvh_block *blocks,
+                                      const ray_packet *p, ray_packet_hit *out)
+{
+    ray_packet_walk w;
+    uint word_of[RAY_STACK_SIZE];
+    float16 entered_of[RAY_STACK_SIZE]; /* nan in lanes that do not enter */
+    ray_packet_nearest best = {MAXFLOAT, RECORD_NONE, 0};
+    uint depth = 0, word = 0;
+
+    if (p->alive == 0) return;
+    w = ray_packet_start(p);
+    best.range = ray_lanes_of_mask(p->alive) ? (float16)MAXFLOAT : (float16)-1.0f;
+    int16 active = ray_lanes_of_mask(p->alive);
+    float16 limit = best.range * (1.0f + 9.5367431640625e-7f);
+
+    for (;;) {
+        const uint rays = ray_lanes_mask(active), count = popcount(rays);
+        if (count <= RAY_PACKET_FEW_IN_NODE ||
+            ((word & BVH_LEAF) && count <= RAY_PACKET_FEW_IN_LEAF)) {
+            ray_packet_closest_single(&w, nodes, blocks, word, rays, &best);
+            limit = best.range * (1.0f + 9.5367431640625e-7f);
+        } else if (word & BVH_LEAF) {
+            ray_packet_closest_leaf(&w.lanes, blocks, word, active, &best);
+            limit = best.range * (1.0f + 9.5367431640625e-7f);
+        } else {
+            global const bvh_node *node = nodes + word;
+            uint order = node->order[w.lanes.octant];
+            const uint mask = w.lanes.coherent ? ray_lanes_reach(&w.lanes, node, MAXFLOAT) : 0xff;
+            for (int i = 7; i >= 0; i--) {
+                const uint child = order >> (4 * i) & 7;
+                float16 range;
+                if (!(mask >> child & 1)) continue;
+                const int16 enters = ray_lanes_enter(&w.lanes, node, child, limit, &range);
+                if (ray_lanes_mask(enters) == 0) continue;
+                word_of[depth] = node->child[child];
+                entered_of[depth++] = enters ? range : (float16)NAN;
+            }
+        }
+        do {
+            if (depth == 0) goto done;
+            depth--;
+            active = entered_of[depth] <= limit;
+        } while (ray_lanes_mask(active) == 0);
+        word = word_of[depth];
+    }
+done:
+    best.range = as_int16(best.facet) == -1 ? (float16)INFINITY : best.range;
+    vstore16(best.range, 0, out->range);
+    vstore16(best.facet, 0, out->facet);
+    vstore16(best.triangle, 0, out->triangle);
+}
+
+/* Tells which lanes meet anything: a bit each. */
+static inline uint ray_packet_any(global const bvh_node *nodes, global const bvh_block *blocks,
+                                  const ray_packet *p)
+{
+    ray_packet_walk w;
+    ulong stack[RAY_STACK_SIZE];
+    uint depth = 0, word = 0, active = p->alive, met = 0;
+    float16 limit;
+
+    if (p->alive == 0) return 0;
+    w = ray_packet_start(p);
+    limit = ray_lanes_of_mask(p->alive) ? (float16)MAXFLOAT : (float16)-1.0f;
+    for (;;) {
+        const uint count = popcount(active);
+        if (count <= RAY_PACKET_FEW_IN_NODE ||
+            ((word & BVH_LEAF) && count <= RAY_PACKET_FEW_IN_LEAF)) {
+            while (active) {
+                const uint lane = ray_packet_next(&active);
+                const ray_frame *f = ray_packet_frame(&w, lane);
+                met |= ray_any_below(f, nodes, blocks, word, MAXFLOAT) << lane;
+            }
+        } else if (word & BVH_LEAF) {
+            const uint first = (word & ~BVH_LEAF) >> 4, end = first + (word & 15);
+            for (uint b = first; b < end; b++)
+                for (uint i = 0; i < 8 && blocks[b].facet[i] != RECORD_NONE; i++) {
+                    float16 range;
+                    met |= active &
+                           ray_lanes_mask(ray_lanes_meet(&w.lanes, blocks + b, i, limit, &range));
+                }
+        } else {
+            global const bvh_node *node = nodes + word;
+            uint mask = w.lanes.coherent ? ray_lanes_reach(&w.lanes, node, MAXFLOAT) : 0xff;
+            while (mask) {
+                const uint child = ray_packet_next(&mask);
+                float16 range;
+                const uint enters =
+                    active & ray_lanes_mask(ray_lanes_enter(&w.lanes, node, child, limit, &range));
+                if (enters) stack[depth++] = (ulong)enters << 32 | node->child[child];
+            }
+        }
+        do {
+            if (depth == 0 || met == p->alive) return met;
+            depth--;
+            active = (uint)(stack[depth] >> 32) & ~met;
+        } while (active == 0);
+        word = (uint)stack[depth];
+    }
+}
+
+#else
+
+static inline void ray_packet_closest(global const bvh_node *nodes, global const bvh_block *blocks,
+                                      const ray_packet *p, ray_packet_hit *out)
+{
+    const ray r = ray_packet_get(p, 0);
+    const ray_hit hit = ray_closest(nodes, blocks, &r);
+
+    out->range[0] = hit.range;
+    out->facet[0] = hit.facet;
+    out->triangle[0] = hit.triangle;
+}
+
+static inline uint ray_packet_any(global const bvh_node *nodes, global const bvh_block *blocks,
+                                  const ray_packet *p)
+{
+    const ray r = ray_packet_get(p, 0);
+
+    return p->alive ? ray_any(nodes, blocks, &r) : 0;
+}
+
+#endif
+
+#endif
