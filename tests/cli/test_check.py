@@ -92,8 +92,8 @@ def test_a_summary_names_units(program, folder):
     summary = check(program, folder, WITH_WEATHER).stdout
 
     for words in ("latitude 40.000000 deg", "east-positive", "10000 m2", "z 0 to 0 m",
-                  "every 15 min", "20.0 to 20.0 C", "W/m2", "lens 85 mm", "60 m from its target", "8 to 14 um",
-                  "gain 1 per W m-2 sr-1"):
+                  "every 15 min", "20.0 to 20.0 C", "W/m2", "lens 85 mm", "60 m from its target",
+                  "8 to 14 um", "gain 1 per W m-2 sr-1"):
         assert words in summary
 
 
@@ -230,8 +230,8 @@ def test_a_sensor_file_of_another_database_is_reported_at_its_band(program, fold
     (folder / "short.sen").write_text("26\n1.0\n0.0\n" + "1.0\n" * 26)  # the database has 27
     text = WITH_DATABASE.replace("wavelength_um = [8.0, 13.0]", 'sensor = "short.sen"')
 
-    assert_refused(program, folder, text, f"scene.toml:{line_of(text, '[[band]]')}: ", "26 responses",
-                   "27 points")
+    assert_refused(program, folder, text, f"scene.toml:{line_of(text, '[[band]]')}: ",
+                   "26 responses", "27 points")
 
 
 def test_facets_without_thickness_are_an_error_for_therm(program, folder):

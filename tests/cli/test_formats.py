@@ -55,7 +55,8 @@ def test_headers_keep_the_convention(made, stem):
     metadata = cube(made, stem).metadata
 
     for key, value in (("samples", "40"), ("lines", "30"), ("header offset", "0"),
-                       ("data type", "4"), ("interleave", "bsq"), ("byte order", "0"), ("data ignore value", "-9999"),
+                       ("data type", "4"), ("interleave", "bsq"), ("byte order", "0"),
+                       ("data ignore value", "-9999"),
                        ("file type", "ENVI Standard"),
                        ("acquisition time", "1992-06-21T17:20:00Z")):
         assert metadata[key] == value
@@ -106,7 +107,7 @@ def test_a_quick_look_shows_pixels_enlarged_by_a_whole_factor_beside_its_bar(mad
 
 @pytest.fixture(scope="module")
 def channels(made):
-    """The EXR's channels by name, shape (rows, columns), as oiiotool prints them; and all it said."""
+    """The EXR's channels by name, (rows, columns), as oiiotool prints them, and all it said."""
     if not shutil.which("oiiotool"):
         pytest.skip("oiiotool (openimageio-tools) is not installed")
     said = subprocess.run(["oiiotool", "--info", "-v", "--dumpdata", made.folder / "plane.exr"],
