@@ -10,7 +10,8 @@ latitude_deg = 40.0
 longitude_deg = -80.0
 time = 1992-06-21T13:20:00-04:00
 [atmosphere]
-uniform = { sky_temperature_k = 260, sky_radiance_w_m2_sr_um = 0, sun_irradiance_w_m2_um = 0, transmission = 1, path_temperature_k = 260 }
+uniform = { sky_temperature_k = 260, sky_radiance_w_m2_sr_um = 0, \
+sun_irradiance_w_m2_um = 0, transmission = 1, path_temperature_k = 260 }
 [[geometry]]
 file = "plane.obj"
 [library]
