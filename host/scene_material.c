@@ -176,7 +176,8 @@ static void read_emissivity(const material_sources *from, scene_material *m, con
         m->record.emissivity_angles = EMISSIVITY_ANGLES;
 }
 
-static void check_material(scene_reader *reader, const scene_material *m, const toml_node *node)
+static void check_material(scene_reader *reader, const scene_material *m,
+                           const stated_material *stated, const toml_node *node)
 {
     const material_record *r = &m->record;
 
@@ -188,6 +189,11 @@ static void check_material(scene_reader *reader, const scene_material *m, const 
         scene_fail(reader, node,
                    "material %s: thermal = \"therm\" needs density_kg_m3, specific_heat_j_kg_k and "
                    "conductivity_w_m_k",
+                   m->name);
+    if (stated && stated->emissivity_path && !(r->thermal_emissivity > 0.0f))
+        scene_fail(reader, node,
+                   "material %s: thermal = \"therm\" needs emissivity, the broad-band one, beside "
+                   "emissivity_file",
                    m->name);
 }
 
@@ -205,7 +211,7 @@ static void add_material(const material_sources *from, const char *name, const m
         m->temperature_k = isnan(stated->temperature_k) ? 0.0 : stated->temperature_k;
         m->two_sided = stated->two_sided;
     }
-    check_material(from->reader, m, stated ? stated->node : from->library_node);
+    check_material(from->reader, m, stated, stated ? stated->node : from->library_node);
 }
 
 /* Finds a material by code, or by name where the code is -1; adds it at its first use.

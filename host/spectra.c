@@ -100,7 +100,7 @@ static void free_samples(band_samples *samples, uint32_t count)
 }
 
 status spectra_build(spectra **out, const band *bands, uint32_t band_count, const atmosphere *air,
-                     bool thesis)
+                     bool by_points, bool thesis)
 {
     status rc = STATUS_OK;
     spectra *s = calloc(1, sizeof *s);
@@ -109,7 +109,7 @@ status spectra_build(spectra **out, const band *bands, uint32_t band_count, cons
 
     NEED(s && samples, STATUS_MEMORY, "no memory for the spectra");
     for (uint32_t i = 0; i < band_count; i++) {
-        TRY(band_sample(&samples[i], &bands[i], air, thesis));
+        TRY(band_sample(&samples[i], &bands[i], air, by_points));
         total += padded(samples[i].count);
     }
     TRY(allocate(s, band_count, total, air));

@@ -18,8 +18,11 @@ typedef struct spectra {
     float *rows; /* shape (row_count, sample_count) */
 } spectra;
 
+/* Samples everything over the bands.
+ *   by_points   bands are summed over the database's points, as the thesis does (band.h)
+ *   thesis      Planck's law with the thesis' constants */
 status spectra_build(spectra **out, const band *bands, uint32_t band_count, const atmosphere *air,
-                     bool thesis);
+                     bool by_points, bool thesis);
 void spectra_free(spectra *s);
 
 /* Samples an emissivity table, linear in wavenumber.

@@ -8,7 +8,7 @@
 
 /* Planck's law per micrometre: B = FIRST / (l^5 (exp(SECOND / (l T)) - 1)), l in um, T in K. */
 #define PLANCK_FIRST 1.191042972397188e8 /* 2 h c^2, W um4 m-2 sr-1 */
-#define PLANCK_SECOND 1.438776877e4      /* h c / k, um K */
+#define PLANCK_SECOND 1.438776877503933e4 /* h c / k, um K */
 
 /* The same with the constants that the thesis prints below eq. 2.4-5: c 2.99792458e10 cm/s,
  * h 6.626176e-34 J s, k 1.380662e-23 J/K. */

@@ -55,7 +55,8 @@ static spectra *build(bool thesis)
 {
     spectra *s = NULL;
 
-    if (spectra_build(&s, bands, 2, &air, thesis) != STATUS_OK) fail_msg("%s", status_message());
+    if (spectra_build(&s, bands, 2, &air, thesis, thesis) != STATUS_OK)
+        fail_msg("%s", status_message());
     return s;
 }
 
@@ -192,7 +193,7 @@ static void a_band_beyond_the_database_fails(void **state)
     spectra *s = NULL;
 
     (void)state;
-    assert_int_equal(spectra_build(&s, &beyond, 1, &air, false), STATUS_ARGUMENT);
+    assert_int_equal(spectra_build(&s, &beyond, 1, &air, false, false), STATUS_ARGUMENT);
     assert_null(s);
 }
 
