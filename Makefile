@@ -10,10 +10,12 @@ space := $(empty) $(empty)
 VARIANT := $(if $(SAN),san-$(subst $(comma),-,$(SAN)),release)
 BUILD := build/$(VARIANT)
 PROGRAM := $(if $(SAN),$(BUILD),build)/radsig
+PREVIEW := $(PROGRAM)-view
 
 PACKAGES := build-essential pkg-config python3 python3-numpy python3-pyopencl python3-pytest \
 	python3-spectral pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libopenmesh-dev \
-	libtinyobjloader-dev libopenimageio-dev libtomlplusplus-dev libcmocka-dev libmd-dev fonts-dejavu-core
+	libtinyobjloader-dev libopenimageio-dev libtomlplusplus-dev libcmocka-dev libmd-dev fonts-dejavu-core \
+	libosmesa6-dev libglfw3-dev libgl-dev libgl1-mesa-dri xvfb xauth xdotool
 LINT_PACKAGES := clang-format clang cppcheck python3-venv
 
 # A plain python3 on the path may lack Debian's packages.
@@ -23,7 +25,7 @@ PYTHON = $(firstword $(foreach p,.venv/bin/python /usr/bin/python3 python3,$(if 
 # Expanded lazily: pkg-config may not be installed before `deps` has run.
 SANITIZE = $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
 WARNINGS = -Wall -Wextra -Wshadow
-CPPFLAGS = -Ihost -Ikernels -Imeshio -MMD -MP -DRADSIG_VERSION='"$(VERSION)"'
+CPPFLAGS = -Ihost -Ikernels -Imeshio -Iviewer -MMD -MP -DRADSIG_VERSION='"$(VERSION)"'
 CFLAGS = -std=c11 -D_DEFAULT_SOURCE -D_POSIX_C_SOURCE=200809L -O2 -g -ffp-contract=off $(WARNINGS) \
 	-Wdouble-promotion $(SANITIZE)
 CXXFLAGS = -std=c++17 -O2 -g -ffp-contract=off $(WARNINGS) -Wno-maybe-uninitialized $(SANITIZE) \
@@ -32,6 +34,7 @@ LDLIBS = -lOpenCL -lOpenMeshCore $(shell pkg-config --libs OpenImageIO tomlplusp
 
 HOST := $(filter-out host/main.c host/command%,$(wildcard host/*.c))
 COMMANDS := host/main.c $(wildcard host/command*.c)
+VIEWER := $(wildcard viewer/*.c)
 MESHIO := $(wildcard meshio/*.cpp)
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
 LIBRARY := $(HOST:%.c=$(BUILD)/%.o) $(MESHIO:%.cpp=$(BUILD)/%.o) $(BUILD)/kernel_files.o
@@ -69,14 +72,17 @@ build/deps: Makefile
 	@$(call install,$(PACKAGES))
 	@mkdir -p build && touch $@
 
-## all: build the program and generate the scenes' geometry
-all: $(PROGRAM) scenes
+## all: build the programs and generate the scenes' geometry
+all: $(PROGRAM) $(PREVIEW) scenes
 
-build/radsig: build/release/radsig
+build/radsig build/radsig-view: build/%: build/release/%
 	ln -f $< $@
 
 $(BUILD)/radsig: $(COMMANDS:%.c=$(BUILD)/%.o) $(LIBRARY)
 	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS)
+
+$(BUILD)/radsig-view: $(VIEWER:%.c=$(BUILD)/%.o) $(LIBRARY)
+	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lOSMesa -lglfw -lpthread
 
 $(BUILD)/%.o: %.c | build/deps
 	@mkdir -p $(@D)
@@ -190,5 +196,5 @@ clean:
 	rm -rf build out $(SCENES) scenes/library/.emissivity
 	rm -f scenes/*/*.gdb scenes/library/*.ems
 
--include $(patsubst %.o,%.d,$(LIBRARY) $(COMMANDS:%.c=$(BUILD)/%.o)) $(wildcard $(BUILD)/tests/host/*.d) \
+-include $(patsubst %.o,%.d,$(LIBRARY) $(COMMANDS:%.c=$(BUILD)/%.o) $(VIEWER:%.c=$(BUILD)/%.o)) $(wildcard $(BUILD)/tests/host/*.d) \
 	$(wildcard $(BUILD)/atmosphere/*.d)

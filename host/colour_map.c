@@ -1,5 +1,7 @@
 #include "colour_map.h"
 
+#include <math.h>
+
 static double cut(double share)
 {
     return share >= 0.0 ? (share <= 1.0 ? share : 1.0) : 0.0; /* NaN becomes 0 */
@@ -27,6 +29,17 @@ void colour_map_heat(double share, uint8_t out_rgb[3])
     for (int c = 0; c < 3; c++)
         out_rgb[c] =
             (uint8_t)(point[low][c] + (place - low) * (point[low + 1][c] - point[low][c]) + 0.5);
+}
+
+void colour_map_diverging(double share, uint8_t out_rgb[3])
+{
+    static const double blue[3] = {33, 102, 172}, white[3] = {247, 247, 247},
+                        red[3] = {178, 24, 43};
+    const double place = 2.0 * cut(share) - 1.0;
+    const double *end = place < 0.0 ? blue : red;
+
+    for (int c = 0; c < 3; c++)
+        out_rgb[c] = (uint8_t)(white[c] + fabs(place) * (end[c] - white[c]) + 0.5);
 }
 
 /* A permutation of the 32-bit numbers: C. Wellons, lowbias32, public domain. */

@@ -4,11 +4,15 @@
 
 #include <stdint.h>
 
-/* Both take a share of 0..1, and cut what lies outside. */
+/* These take a share of 0..1, and cut what lies outside. */
 void colour_map_grey(double share, uint8_t out_rgb[3]);
 
 /* The colours of matplotlib's `inferno` (S. van der Walt and N. Smith, CC0), within 2 of 255. */
 void colour_map_heat(double share, uint8_t out_rgb[3]);
+
+/* Blue, white at .5, red: the ends and the middle of ColorBrewer's RdBu (C. Brewer), straight lines
+ * between them. */
+void colour_map_diverging(double share, uint8_t out_rgb[3]);
 
 /* Colour of the n-th category; the first 22 differ as much as possible: K. L. Kelly, Twenty-two
  * colors of maximum contrast, Color Engineering 3 (1965). Those beyond are hashed. */

@@ -5,11 +5,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char help[] =
-    "usage: radsig view SCENE [--offscreen FILE.png] [--size WxH] [--plane NAME]\n"
-    "\n"
-    "Starts the preview, the program radsig-view that stands beside radsig.\n";
-
 /* Writes the path of radsig-view, beside this program. */
 static status viewer_path(char *out, size_t size)
 {
@@ -28,16 +23,11 @@ int command_view(int argc, char **argv)
     char path[4096];
     status rc;
 
-    if (argc == 2 && !strcmp(argv[1], "--help")) {
-        fputs(help, stdout);
-        return 0;
-    }
-    if (argc < 2) return command_misuse("view", "needs a scene");
+    (void)argc;
     rc = viewer_path(path, sizeof path);
     if (rc == STATUS_OK) {
         execv(path, argv);
-        rc = status_set(STATUS_FILE, "%s: %s: the preview is not part of this build", path,
-                        strerror(errno));
+        rc = status_set(STATUS_FILE, "%s: %s: make all builds it", path, strerror(errno));
     }
     return command_end("view", rc);
 }

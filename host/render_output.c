@@ -123,6 +123,7 @@ static void free_writing(writing *w)
 
 static void show_progress(const writing *w, uint64_t done, uint64_t all)
 {
+    if (w->options->percent) *w->options->percent = (sig_atomic_t)(100 * done / all);
     if (!w->options->shows_progress) return;
     fprintf(stderr, "\r%s: %3.0f %% of %llu pixels%s", w->s->name,
             floor(100.0 * (double)done / (double)all), (unsigned long long)all,

@@ -16,6 +16,7 @@ typedef struct render_output_options {
     const char *planes;  /* truth planes, names with commas between; NULL: the default ones */
     bool wants_exr;      /* also above RENDER_OUTPUT_BANDS bands */
     bool shows_progress; /* on stderr */
+    volatile sig_atomic_t *percent;    /* of the pixels, as they are done; NULL: nobody asks */
     const volatile sig_atomic_t *stop; /* ends the render with STATUS_INTERRUPTED when it is set */
 } render_output_options;
 

@@ -1,5 +1,6 @@
 #include "view.h"
 
+#include "output_file.h"
 #include "record_file.h"
 
 #include <math.h>
@@ -83,6 +84,45 @@ status view_read(view *out, const char *path)
     *out = v;
 out:
     record_file_free(file);
+    return rc;
+}
+
+status view_write(const view *v, const char *path)
+{
+    status rc = STATUS_OK;
+    output_file *file = NULL;
+    const double east = v->position_m[0] - v->target_m[0],
+                 north = v->position_m[1] - v->target_m[1];
+    const double up = v->position_m[2] - v->target_m[2];
+
+    TRY(output_file_open(&file, path));
+    fprintf(output_file_stream(file), "%.17g %.17g %.17g\n%.17g %.17g %.17g\n", v->target_m[1],
+            -v->target_m[0], v->target_m[2], v->position_m[1], -v->position_m[0], v->position_m[2]);
+    fprintf(output_file_stream(file), "%.6f %.6f %.17g\n%.17g\n%d %d\n",
+            atan2(up, hypot(east, north)) / DEGREES, atan2(-east, north) / DEGREES, v->twist_deg,
+            v->focal_length_mm, v->columns, v->rows);
+    TRY(output_file_commit(file));
+out:
+    output_file_free(file);
+    return rc;
+}
+
+status view_write_table(const view *v, const char *path)
+{
+    status rc = STATUS_OK;
+    output_file *file = NULL;
+
+    TRY(output_file_open(&file, path));
+    fprintf(output_file_stream(file),
+            "[camera]\nposition_m = [%.17g, %.17g, %.17g]\ntarget_m = [%.17g, %.17g, %.17g]\n",
+            v->position_m[0], v->position_m[1], v->position_m[2], v->target_m[0], v->target_m[1],
+            v->target_m[2]);
+    fprintf(output_file_stream(file),
+            "twist_deg = %.17g\nfocal_length_mm = %.17g\npixels = [%d, %d]\n", v->twist_deg,
+            v->focal_length_mm, v->columns, v->rows);
+    TRY(output_file_commit(file));
+out:
+    output_file_free(file);
     return rc;
 }
 

@@ -16,6 +16,12 @@ typedef struct view {
  * and azimuth repeat what target and position say: more than .1 degree apart is a warning. */
 status view_read(view *out, const char *path);
 
+/* Writes an .adv file that view_read reads back, to the axes' exchange of sign. */
+status view_write(const view *v, const char *path);
+
+/* Writes the [camera] table of a scene file, every number to its last digit. */
+status view_write_table(const view *v, const char *path);
+
 /* Turns a view into the pinhole camera of eq. 2.5.3-2, positions minus origin_m. Columns run to the
  * right, rows from the top, pixels are square, up is up; straight down or up, the top is north.
  * The view is one that was checked: position and target differ, sizes are above 0. */

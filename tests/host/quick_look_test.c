@@ -152,6 +152,22 @@ static void the_plane_chooses_the_colours(void **state)
     assert_int_equal(quick_look_colours_of(&plane[4]), QUICK_LOOK_GREY);
 }
 
+static void diverging_runs_from_blue_over_white_to_red(void **state)
+{
+    (void)state;
+    /* ColorBrewer's RdBu with 11 classes: 2166ac and b2182b near its ends, f7f7f7 in the middle. */
+    static const struct {
+        double share;
+        uint8_t rgb[3];
+    } known[] = {{0.0, {0x21, 0x66, 0xac}}, {0.5, {0xf7, 0xf7, 0xf7}}, {1.0, {0xb2, 0x18, 0x2b}}};
+    uint8_t rgb[3];
+
+    for (int i = 0; i < 3; i++) {
+        colour_map_diverging(known[i].share, rgb);
+        assert_memory_equal(rgb, known[i].rgb, 3);
+    }
+}
+
 static void heat_has_the_colours_of_inferno(void **state)
 {
     /* matplotlib 3.6.3, colormaps['inferno'].colors[i] * 255, rounded */
@@ -198,6 +214,7 @@ int main(void)
         TEST(a_legend_with_more_than_twenty_lines_ends),
         TEST(the_plane_chooses_the_colours),
         TEST(heat_has_the_colours_of_inferno),
+        TEST(diverging_runs_from_blue_over_white_to_red),
         TEST(the_first_22_categories_differ),
     };
 

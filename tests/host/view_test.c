@@ -198,6 +198,21 @@ static void the_camera_stands_relative_to_the_origin(void **state)
     assert_direction(&c, 1, 1, 0.0, 1.0, 0.0);
 }
 
+static void a_written_view_is_read_back_to_the_last_bit(void **state)
+{
+    (void)state;
+    const view v = {{1.0 / 3.0, -200.1, 1e4 / 7.0}, {-0.1, 2.2, 0.3}, 12.3, 35.7, 640, 481};
+    view back;
+
+    assert_int_equal(view_write(&v, text_file("")), STATUS_OK);
+    assert_int_equal(view_read(&back, text_file_at), STATUS_OK);
+    assert_memory_equal(back.position_m, v.position_m, sizeof v.position_m);
+    assert_memory_equal(back.target_m, v.target_m, sizeof v.target_m);
+    assert_true(back.twist_deg == v.twist_deg && back.focal_length_mm == v.focal_length_mm);
+    assert_true(back.columns == v.columns && back.rows == v.rows);
+    assert_string_equal(status_warnings(), "");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -213,6 +228,7 @@ int main(void)
         cmocka_unit_test(straight_up_the_top_is_north),
         cmocka_unit_test(a_positive_twist_turns_the_picture_counterclockwise),
         cmocka_unit_test(the_camera_stands_relative_to_the_origin),
+        cmocka_unit_test_setup(a_written_view_is_read_back_to_the_last_bit, forget_warnings),
     };
 
     return cmocka_run_group_tests_name("view", tests, text_file_setup, text_file_teardown);

@@ -1,0 +1,166 @@
+#include "inspection.h"
+
+#include "image.h"
+#include "page.h"
+
+#include <math.h>
+#include <stdarg.h>
+
+enum { LINE_LIMIT = 40, LINE_SIZE = 160, SPECTRUM_BANDS = 3, PLOT_WIDTH = 220, PLOT_HEIGHT = 80 };
+
+static const canvas_colour ink = {25, 25, 25, 255}, paper = {255, 255, 255, 220},
+                           mark = {0, 230, 118, 255}, curve = {178, 24, 43, 255};
+
+typedef struct lines {
+    char text[LINE_LIMIT][LINE_SIZE];
+    int count;
+} lines;
+
+__attribute__((format(printf, 2, 3))) static void add(lines *l, const char *format, ...);
+
+static void add(lines *l, const char *format, ...)
+{
+    va_list arguments;
+
+    if (l->count == LINE_LIMIT) return;
+    va_start(arguments, format);
+    vsnprintf(l->text[l->count++], LINE_SIZE, format, arguments);
+    va_end(arguments);
+}
+
+/* The value of a plane at a pixel, or IMAGE_NO_DATA. */
+static float value_at(const frame *f, const char *plane, size_t pixel)
+{
+    const size_t i = frame_find(f, plane);
+
+    return i < f->plane_count && f->values[i] ? f->values[i][pixel] : IMAGE_NO_DATA;
+}
+
+static void add_names(lines *l, const frame *f, size_t pixel)
+{
+    const scene *s = f->of->s;
+    const geometry *g = s->shape;
+    const float facet = value_at(f, "facet", pixel), material = value_at(f, "material", pixel);
+    uint32_t i = 0;
+
+    if (facet != IMAGE_NO_DATA) {
+        while (i < g->facet_count && (float)g->facet_id[i] != facet) i++;
+        if (i < g->facet_count && g->part[i] < g->part_count) {
+            const uint32_t part = g->part[i];
+            add(l, "object %s, part %s, facet %.0f", g->object_name[g->part_object[part]],
+                g->part_name[part], (double)facet);
+        }
+    } else if (material != IMAGE_NO_DATA) {
+        add(l, "the ground beyond the scene");
+    } else {
+        add(l, "sky");
+    }
+    for (i = 0; i < s->material_count; i++)
+        if ((float)s->materials[i].record.number == material)
+            add(l, "material %s", s->materials[i].name);
+}
+
+/* Whether a plane belongs to another band than the one that is shown. */
+static bool is_of_other_band(const preview *p, const render_plane *plane)
+{
+    const render_plane *shown = &p->live->planes[p->plane];
+    const uint32_t number = shown->is_of_band ? shown->source / BAND_PLANES : 0;
+
+    return plane->is_of_band && plane->source / BAND_PLANES != number;
+}
+
+static void add_values(lines *l, const preview *p, size_t pixel)
+{
+    const frame *f = p->live;
+
+    for (size_t i = 0; i < f->plane_count; i++) {
+        const render_plane *plane = &f->planes[i];
+        if (!f->values[i] || plane->plane.categorical || is_of_other_band(p, plane)) continue;
+        if (f->values[i][pixel] == IMAGE_NO_DATA) continue;
+        add(l, "%s %.6g %s", plane->name, (double)f->values[i][pixel],
+            plane->plane.unit ? plane->plane.unit : "");
+    }
+    if (p->difference) add(l, "difference %.6g", (double)p->difference[pixel]);
+}
+
+/* Radiance against wavelength. */
+static void draw_spectrum(const preview *p, size_t pixel, preview_rectangle into)
+{
+    const frame *f = p->live;
+    const uint32_t bands = f->of->s->band_count;
+    double most = 0.0, x0 = 0.0, y0 = 0.0;
+    char text[64];
+
+    for (uint32_t b = 0; b < bands; b++) most = fmax(most, (double)f->values[b][pixel]);
+    const double first_um = f->planes[0].plane.wavelength_um;
+    const double last_um = f->planes[bands - 1].plane.wavelength_um;
+    if (most <= 0.0 || last_um == first_um) return;
+    canvas_fill(p->c, into.x, into.y, into.width, into.height, paper);
+    for (uint32_t b = 0; b < bands; b++) {
+        const double share = (f->planes[b].plane.wavelength_um - first_um) / (last_um - first_um);
+        const double x = into.x + share * into.width;
+        const double y =
+            into.y + into.height * (1.0 - fmax(0.0, (double)f->values[b][pixel]) / most);
+        if (b > 0) canvas_line(p->c, x0, y0, x, y, 1.5 * p->scale, curve);
+        x0 = x;
+        y0 = y;
+    }
+    snprintf(text, sizeof text, "%.4g to %.4g um, up to %.4g", first_um, last_um, most);
+    canvas_text(p->c, into.x + 2.0, into.y + into.height, CANVAS_TEXT, ink, text);
+}
+
+static void draw_cross(const preview *p)
+{
+    double x, y;
+    const double arm = 8.0 * p->scale, width = 2.0 * p->scale;
+
+    page_find_point(p, p->pick_column, p->pick_row, &x, &y);
+    canvas_line(p->c, x - arm, y, x - 0.3 * arm, y, width, mark);
+    canvas_line(p->c, x + 0.3 * arm, y, x + arm, y, width, mark);
+    canvas_line(p->c, x, y - arm, x, y - 0.3 * arm, width, mark);
+    canvas_line(p->c, x, y + 0.3 * arm, x, y + arm, width, mark);
+}
+
+void inspection_draw(const preview *p)
+{
+    lines l = {.count = 0};
+    const size_t pixel = preview_pixel(p, p->live, p->pick_column, p->pick_row);
+    const double height = canvas_line_height(p->c, CANVAS_TEXT), pad = 6.0 * p->scale;
+    int width = 0;
+
+    add(&l, "column %d, row %d", p->pick_column, p->pick_row);
+    add_names(&l, p->live, pixel);
+    add_values(&l, p, pixel);
+    for (int i = 0; i < l.count; i++) {
+        const int wide = canvas_text_width(p->c, CANVAS_TEXT, l.text[i]);
+        width = wide > width ? wide : width;
+    }
+    canvas_fill(p->c, p->picture.x + pad, p->picture.y + pad, width + 2.0 * pad,
+                l.count * height + pad, paper);
+    for (int i = 0; i < l.count; i++)
+        canvas_text(p->c, p->picture.x + 2.0 * pad, p->picture.y + 1.5 * pad + i * height,
+                    CANVAS_TEXT, ink, l.text[i]);
+    if (p->live->of->s->band_count >= SPECTRUM_BANDS)
+        draw_spectrum(p, pixel,
+                      (preview_rectangle){p->picture.x + pad,
+                                          p->picture.y + 3.0 * pad + l.count * height,
+                                          PLOT_WIDTH * p->scale, PLOT_HEIGHT * p->scale});
+    draw_cross(p);
+}
+
+void inspection_write(const preview *p, FILE *to)
+{
+    const frame *f = p->live;
+    const size_t pixel = preview_pixel(p, f, p->pick_column, p->pick_row);
+
+    for (size_t i = 0; i < f->plane_count; i++)
+        if (f->values[i])
+            fprintf(to, "pixel %d %d %s %.9g %s\n", p->pick_column, p->pick_row, f->planes[i].name,
+                    (double)f->values[i][pixel],
+                    f->planes[i].plane.unit ? f->planes[i].plane.unit : "");
+    if (p->difference)
+        fprintf(to, "pixel %d %d difference %.9g %s\n", p->pick_column, p->pick_row,
+                (double)p->difference[pixel],
+                f->planes[p->plane].plane.unit ? f->planes[p->plane].plane.unit : "");
+    fflush(to);
+}

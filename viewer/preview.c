@@ -1,0 +1,285 @@
+#include "preview.h"
+
+#include "image.h"
+#include "page.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* How long a step of preview_rest waits. */
+static const double pause_s = 0.005;
+
+static bool is_known(const shared_scene *of, const char *plane)
+{
+    static const double no_wavelengths[4096];
+    render_plane *planes = NULL;
+    size_t count = 0;
+    bool known = false;
+
+    if (of->s->band_count > 4096 ||
+        render_plane_list(&planes, &count, of->s, no_wavelengths, no_wavelengths) != STATUS_OK)
+        return false;
+    for (size_t i = 0; i < count; i++) known |= !strcmp(planes[i].name, plane);
+    free(planes);
+    return known;
+}
+
+status preview_open(preview **out, surface *s, shared_scene *of, int columns, int rows,
+                    const char *plane, FILE *picks)
+{
+    status rc = STATUS_OK;
+    preview *p = calloc(1, sizeof *p);
+
+    NEED(p, STATUS_MEMORY, "no memory for a preview");
+    NEED(!plane || is_known(of, plane), STATUS_ARGUMENT, "there is no plane '%s' in this scene",
+         plane);
+    if (plane) snprintf(p->plane_name, sizeof p->plane_name, "%s", plane);
+    p->s = s;
+    p->picks = picks;
+    p->first = shared_scene_hold(of);
+    p->camera = of->s->camera;
+    p->wish = (session_wish){.columns = columns, .rows = rows};
+    p->pick_column = columns / 2;
+    p->pick_row = rows / 2;
+    p->is_stale = true;
+    TRY(session_open(&p->work, of, &p->wish));
+    p->wished = 1;
+    s->measure(s, &p->width, &p->height, &p->scale);
+    TRY(canvas_open(&p->c, s, p->scale));
+    page_place(p);
+    *out = p;
+    p = NULL;
+out:
+    preview_free(p);
+    return rc;
+}
+
+void preview_free(preview *p)
+{
+    if (!p) return;
+    full_render_free(p->full);
+    session_free(p->work);
+    canvas_free(p->c);
+    frame_drop(p->live);
+    frame_drop(p->pinned);
+    shared_scene_drop(p->first);
+    free(p->difference);
+    free(p);
+}
+
+void preview_resize(preview *p, int width, int height)
+{
+    p->width = width;
+    p->height = height;
+    page_fit(p, &p->wish.columns, &p->wish.rows);
+    p->pick_column = p->wish.columns / 2;
+    p->pick_row = p->wish.rows / 2;
+    page_place(p);
+    preview_ask(p);
+}
+
+void preview_ask(preview *p)
+{
+    p->wish.camera = p->camera;
+    p->wished = session_ask(p->work, &p->wish);
+    p->is_stale = true;
+}
+
+const scene *preview_scene(const preview *p)
+{
+    return p->live ? p->live->of->s : p->first->s;
+}
+
+double preview_time_s(const preview *p)
+{
+    return p->wish.has_time ? p->wish.time_s : preview_scene(p)->place.time_s;
+}
+
+bool preview_thesis(const preview *p)
+{
+    return p->wish.has_mode ? p->wish.thesis : preview_scene(p)->thesis;
+}
+
+size_t preview_pixel(const preview *p, const frame *f, int column, int row)
+{
+    const size_t across = (size_t)column * (size_t)f->camera.columns / (size_t)p->wish.columns;
+    const size_t down = (size_t)row * (size_t)f->camera.rows / (size_t)p->wish.rows;
+
+    return down * (size_t)f->camera.columns + across;
+}
+
+const float *preview_values(const preview *p)
+{
+    if (!p->live) return NULL;
+    return p->difference ? p->difference : p->live->values[p->plane];
+}
+
+static status subtract(preview *p)
+{
+    status rc = STATUS_OK;
+
+    free(p->difference);
+    p->difference = NULL;
+    if (p->compare != PREVIEW_DIFFERENCE || !p->pinned) goto out;
+    p->difference = malloc(frame_pixels(p->live) * sizeof *p->difference);
+    NEED(p->difference, STATUS_MEMORY, "no memory for a difference");
+    painting_subtract(p->live, p->live->values[p->plane], p->pinned,
+                      p->pinned->values[p->pinned_plane], p->difference);
+out:
+    return rc;
+}
+
+/* The range about 0 that holds both ends. */
+static value_range balance(value_range range)
+{
+    const double most = fmax(fabs(range.min), fabs(range.max));
+
+    range.min = -most;
+    range.max = most;
+    return range;
+}
+
+static status load_picture(preview *p, int index, const frame *f, const float *value,
+                           const painting_scale *colours)
+{
+    status rc = STATUS_OK;
+    const size_t facet = frame_find(f, "facet");
+    uint8_t *rgb = malloc(frame_pixels(f) * 3);
+
+    NEED(rgb, STATUS_MEMORY, "no memory for the colours");
+    painting_fill(colours, f->of->s, value, frame_pixels(f), rgb);
+    if (p->shows_outlines && facet < f->plane_count) painting_outline(f, f->values[facet], rgb);
+    canvas_load_picture(p->c, index, f->camera.columns, f->camera.rows, rgb);
+out:
+    free(rgb);
+    return rc;
+}
+
+/* The range and the colours of the picture, and of the pinned one beside it. */
+static status colour(preview *p)
+{
+    status rc = STATUS_OK;
+    const painting_map map = p->difference && p->map == PAINTING_OWN ? PAINTING_DIVERGING : p->map;
+    const float *value = preview_values(p);
+    value_range range = p->range;
+
+    if (!p->has_fixed_range)
+        TRY(value_range_find(&range, value, frame_pixels(p->live), IMAGE_NO_DATA));
+    if (p->difference && !p->has_fixed_range) range = balance(range);
+    p->range = range;
+    p->colours = painting_scale_of(&p->live->planes[p->plane], map, range);
+    if (p->difference) p->colours.is_by_number = false;
+    TRY(load_picture(p, 0, p->live, value, &p->colours));
+    if (p->compare != PREVIEW_BESIDE || !p->pinned) goto out;
+    value = p->pinned->values[p->pinned_plane];
+    if (strcmp(p->pinned->planes[p->pinned_plane].name, p->live->planes[p->plane].name))
+        TRY(value_range_find(&range, value, frame_pixels(p->pinned), IMAGE_NO_DATA));
+    p->pinned_colours = painting_scale_of(&p->pinned->planes[p->pinned_plane], map, range);
+    TRY(load_picture(p, 1, p->pinned, value, &p->pinned_colours));
+out:
+    return rc;
+}
+
+/* The plane of that name in a new frame; the first where there is none or it has no values. */
+static void find_plane(preview *p)
+{
+    p->plane = frame_find(p->live, p->plane_name);
+    if (p->plane == p->live->plane_count || !p->live->values[p->plane]) p->plane = 0;
+    snprintf(p->plane_name, sizeof p->plane_name, "%s", p->live->planes[p->plane].name);
+}
+
+static void take_frame(preview *p)
+{
+    frame *f = session_take(p->work);
+
+    if (!f) return;
+    frame_drop(p->live);
+    p->live = f;
+    if (!p->wish.has_camera) p->camera = f->of->s->camera;
+    find_plane(p);
+    p->is_stale = true;
+}
+
+static void take_state(preview *p)
+{
+    session_state state;
+    int percent;
+
+    session_look(p->work, &state);
+    if (state.is_at_rest != p->state.is_at_rest || strcmp(state.error, p->state.error) ||
+        floor(20.0 * state.progress) != floor(20.0 * p->state.progress) ||
+        state.task != p->state.task)
+        p->is_stale = true;
+    p->state = state;
+    if (!p->full || full_render_is_told(p->full)) return;
+    percent = full_render_percent(p->full);
+    preview_note(p, "%s: %d %%", full_render_folder(p->full), percent);
+    if (!full_render_is_running(p->full)) full_render_tell(p->full, p->note, sizeof p->note);
+}
+
+status preview_step(preview *p, bool *out_drew)
+{
+    status rc = STATUS_OK;
+
+    take_state(p);
+    take_frame(p);
+    *out_drew = p->is_stale;
+    if (!p->is_stale) goto out;
+    p->is_stale = false;
+    if (p->live) {
+        TRY(subtract(p));
+        TRY(colour(p));
+    }
+    TRY(page_draw(p));
+    p->s->show(p->s);
+out:
+    return rc;
+}
+
+status preview_rest(preview *p)
+{
+    status rc = STATUS_OK;
+    event unused;
+    bool drew, rested = false;
+
+    while (!rested) {
+        session_state state;
+        session_look(p->work, &state);
+        rested = state.is_at_rest;
+        TRY(preview_step(p, &drew));
+        if (!rested) p->s->take(p->s, &unused, pause_s);
+    }
+out:
+    return rc;
+}
+
+void preview_show_plane(preview *p, size_t plane)
+{
+    p->plane = plane;
+    snprintf(p->plane_name, sizeof p->plane_name, "%s", p->live->planes[plane].name);
+    p->has_fixed_range = false;
+    p->is_stale = true;
+}
+
+void preview_pin(preview *p)
+{
+    if (!p->live) return;
+    frame_drop(p->pinned);
+    p->pinned = frame_hold(p->live);
+    p->pinned_plane = p->plane;
+    p->is_stale = true;
+}
+
+void preview_note(preview *p, const char *format, ...)
+{
+    char text[sizeof p->note];
+    va_list arguments;
+
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (strcmp(text, p->note)) p->is_stale = true;
+    memcpy(p->note, text, sizeof text);
+}
