@@ -13,6 +13,7 @@ static const struct {
 } commands[] = {
     {"make", tool_make, "make the radiance database of a scene"},
     {"deck", tool_deck, "run card decks as they stand"},
+    {"cloud", tool_cloud, "write the extinction of a cloud"},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof *commands };

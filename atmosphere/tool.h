@@ -10,6 +10,7 @@
 
 int tool_make(int argc, char **argv);
 int tool_deck(int argc, char **argv);
+int tool_cloud(int argc, char **argv);
 
 enum { TOOL_USAGE = 2, TOOL_INTERRUPTED = 130, TOOL_HELP = -1 };
 
