@@ -14,7 +14,7 @@ typedef struct _cl_mem *device_memory;
 
 /* What OpenCL says of a device; texts are cut to fit. */
 typedef struct device_info {
-    char platform[64], name[64], version[64], type[16];
+    char platform[256], name[256], version[256], type[16];
     uint32_t compute_units;
     uint64_t memory_bytes, allocation_bytes;
     uint32_t
