@@ -95,10 +95,26 @@ out:
     return rc;
 }
 
+/* A folder where a file should go would stop the renames halfway. */
+static status check_targets(const output_folder *folder)
+{
+    status rc = STATUS_OK;
+    struct stat found;
+
+    for (size_t i = 0; i < folder->file_count; i++) {
+        const char *path = output_file_path(folder->file[i]);
+        NEED(stat(path, &found) != 0 || !S_ISDIR(found.st_mode), STATUS_FILE,
+             "%s: is a folder, expected a file or nothing", path);
+    }
+out:
+    return rc;
+}
+
 status output_folder_commit(output_folder *folder)
 {
     status rc = STATUS_OK;
 
+    TRY(check_targets(folder));
     for (size_t i = 0; i < folder->file_count; i++) TRY(output_file_commit(folder->file[i]));
     folder->committed = true;
 out:

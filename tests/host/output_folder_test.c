@@ -106,6 +106,22 @@ static void a_folder_without_permission_is_refused_with_its_path(void **state)
     assert_non_null(strstr(status_message(), scratch_path("locked")));
 }
 
+static void a_folder_in_the_place_of_a_file_stops_all_renames(void **state)
+{
+    output_folder *folder = opened("out");
+    (void)state;
+
+    write_file(folder, "a.img", "1");
+    write_file(folder, "a.json", "2");
+    mkdir(scratch_path("out/a.json"), 0777);
+
+    assert_int_equal(output_folder_commit(folder), STATUS_FILE);
+    assert_non_null(strstr(status_message(), "a.json: is a folder"));
+    output_folder_free(folder);
+    assert_int_not_equal(access(scratch_path("out/a.img"), F_OK), 0);
+    rmdir(scratch_path("out/a.json"));
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_setup, scratch_teardown)
 
 int main(void)
@@ -117,6 +133,7 @@ int main(void)
         TEST(a_folder_below_a_file_is_refused_with_the_file_s_path),
         TEST(a_folder_that_cannot_be_made_is_refused_with_its_path),
         TEST(a_folder_without_permission_is_refused_with_its_path),
+        TEST(a_folder_in_the_place_of_a_file_stops_all_renames),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
