@@ -13,13 +13,17 @@
 #include <stdlib.h>
 #include <time.h>
 
+/* The hemisphere of a coarse look: one ring of three rays. */
+static const double coarse_zenith_step_deg = 90.0, coarse_azimuth_step_deg = 120.0;
+
 enum { STAGE_LIMIT = 8, TILE_BYTES = 1 << 27, TILE_LEAST = 1 << 10, TILE_MOST = 1 << 16 };
 
 struct render {
     const scene *s;
     device *dev;
     ray_scene *rays;
-    shape_factor_grid *grid;
+    shape_factor_grid *grid, *coarse_grid;
+    bool is_coarse;
     spectra *bands;
     incident *around; /* exact mode */
     radiometry_record frame;
@@ -57,6 +61,7 @@ static status open_rays(render *r)
     status rc = STATUS_OK;
     const scene *s = r->s;
     const geometry *g = s->shape;
+    const shape_factor_reading reading = s->thesis ? SHAPE_FACTOR_THESIS : SHAPE_FACTOR_COSINE;
     bvh *tree = NULL;
 
     TRY(bvh_build(&tree, g->facet_count, (const uint32_t(*)[4])g->corner,
@@ -64,6 +69,10 @@ static status open_rays(render *r)
     TRY(ray_scene_open(&r->rays, r->dev, tree));
     if (s->ground_material != RECORD_NONE)
         ray_scene_set_ground(r->rays, g->facet_count, (float)(s->ground_z_m - g->origin_m[2]));
+    TRY(shape_factor_open(&r->grid, r->dev, reading, s->hemisphere_zenith_step_deg,
+                          s->hemisphere_azimuth_step_deg));
+    TRY(shape_factor_open(&r->coarse_grid, r->dev, reading, coarse_zenith_step_deg,
+                          coarse_azimuth_step_deg));
     end_stage(r, "tree");
 out:
     bvh_free(tree);
@@ -159,7 +168,6 @@ static void set_frame(render *r)
     r->frame = (radiometry_record){
         .band_count = s->band_count,
         .sample_count = r->bands->sample_count,
-        .thesis = s->thesis,
         .path_count = (uint32_t)air->path_count,
         .path_zenith_first_deg = (float)air->path_zenith_first_deg,
         .path_zenith_step_deg = (float)air->path_zenith_step_deg,
@@ -183,28 +191,21 @@ out:
 
 render_look render_stated_look(const scene *s)
 {
-    return (render_look){s->camera, s->place.time_s, s->hemisphere_zenith_step_deg,
-                         s->hemisphere_azimuth_step_deg};
+    return (render_look){.camera = s->camera, .time_s = s->place.time_s};
 }
 
-status render_change_look(render *r, const render_look *look)
+void render_change_look(render *r, const render_look *look)
 {
-    status rc = STATUS_OK;
     const scene *s = r->s;
     const sun_position sun = sun_at(look->time_s, s->place.latitude_deg, s->place.longitude_deg);
-    shape_factor_grid *grid = NULL;
     double direction[3];
 
-    TRY(shape_factor_open(&grid, r->dev, s->thesis ? SHAPE_FACTOR_THESIS : SHAPE_FACTOR_COSINE,
-                          look->hemisphere_zenith_step_deg, look->hemisphere_azimuth_step_deg));
-    shape_factor_free(r->grid);
-    r->grid = grid;
     sun_direction(sun, direction);
     for (int i = 0; i < 3; i++) r->frame.sun[i] = (float)direction[i];
     r->camera = view_camera(&look->camera, s->shape->origin_m);
     r->frame.columns = (uint32_t)look->camera.columns;
-out:
-    return rc;
+    r->frame.thesis = s->thesis || look->is_coarse;
+    r->is_coarse = look->is_coarse;
 }
 
 status render_open(render **out, const scene *s, device *dev)
@@ -222,7 +223,7 @@ status render_open(render **out, const scene *s, device *dev)
     TRY(set_temperatures(r));
     TRY(open_spectra(r));
     set_frame(r);
-    TRY(render_change_look(r, &look));
+    render_change_look(r, &look);
     if (!s->thesis) TRY(open_incident(r));
     TRY(render_plane_list(&r->planes, &r->plane_count, s, r->bands->centre_um, r->bands->width_um));
     *out = r;
@@ -247,6 +248,7 @@ void render_free(render *r)
     free(r->facet);
     incident_free(r->around);
     spectra_free(r->bands);
+    shape_factor_free(r->coarse_grid);
     shape_factor_free(r->grid);
     ray_scene_free(r->rays);
     free(r);
@@ -274,6 +276,11 @@ uint32_t render_tile_limit(const render *r)
     return limit < TILE_LEAST ? TILE_LEAST : limit > TILE_MOST ? TILE_MOST : (uint32_t)limit;
 }
 
+static bool has_incident(const render *r)
+{
+    return r->around && !r->is_coarse;
+}
+
 /* What one tile holds on the device. */
 typedef struct tile {
     uint32_t first, count;
@@ -299,7 +306,7 @@ static status open_tile(tile *t, const render *r, uint32_t first, uint32_t count
     TRY(device_allocate(r->dev, &t->background, n * sizeof(background_record), NULL));
     TRY(device_allocate(r->dev, &t->background_hit, n * sizeof(hit_record), NULL));
     TRY(device_allocate(r->dev, &t->background_lit, n * sizeof(float), NULL));
-    if (r->around)
+    if (has_incident(r))
         TRY(device_allocate(r->dev, &t->incident, n * r->frame.sample_count * sizeof(float), NULL));
     TRY(device_allocate(r->dev, &t->truth_planes, n * (TRUTH_PLANES + SUN_PLANES) * sizeof(float),
                         NULL));
@@ -336,8 +343,8 @@ static status trace_tile(const render *r, const tile *t)
     TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count,
                           t->points.hit));
     TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->points.hit, t->lit));
-    TRY(shape_factor_run(r->grid, r->rays, &tables, r->around ? r->frame.sun : NULL, &t->points,
-                         t->background));
+    TRY(shape_factor_run(r->is_coarse ? r->coarse_grid : r->grid, r->rays, &tables,
+                         has_incident(r) ? r->frame.sun : NULL, &t->points, t->background));
     TRY(device_run(r->dev, "mirror", shape1(t->count), ARG(t->count), ARG(r->camera), ARG(world),
                    ARG(nodes), ARG(blocks), ARG(r->facets), ARG(facet_k), ARG(r->materials),
                    ARG(t->points.hit), ARG(t->background)));
@@ -358,7 +365,7 @@ static status colour_tile(const render *r, const tile *t)
     TRY(device_run(r->dev, "truth", shape1(t->count), ARG(frame), ARG(r->camera), ARG(r->facets),
                    ARG(r->facet_ids), ARG(r->materials), ARG(t->temperature_k), ARG(t->points.hit),
                    ARG(t->background), ARG(t->lit), ARG(t->background_lit), ARG(t->truth_planes)));
-    if (r->around) {
+    if (has_incident(r)) {
         const incident_pixels pixels = {
             .frame = frame,
             .camera = r->camera,
@@ -386,8 +393,12 @@ status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float 
 
     TRY(open_tile(&t, r, first_pixel, pixel_count));
     TRY(trace_tile(r, &t));
-    TRY(temperature_of_pixels(r->warmth, r->rays, t.count, t.points.hit, TRUTH_PLANES, t.history,
-                              t.temperature_k, t.truth_planes));
+    if (r->is_coarse)
+        TRY(temperature_of_hits(r->warmth, t.count, t.points.hit, TRUTH_PLANES, t.temperature_k,
+                                t.truth_planes));
+    else
+        TRY(temperature_of_pixels(r->warmth, r->rays, t.count, t.points.hit, TRUTH_PLANES,
+                                  t.history, t.temperature_k, t.truth_planes));
     TRY(colour_tile(r, &t));
     for (size_t i = 0; i < r->plane_count; i++) {
         const render_plane *p = &r->planes[i];

@@ -33,15 +33,16 @@ status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float 
 /* How to look at the scene, where that differs from what the scene says. */
 typedef struct render_look {
     view camera;
-    double time_s; /* of the sun; UTC, since 1970 */
-    double hemisphere_zenith_step_deg, hemisphere_azimuth_step_deg;
+    double time_s;  /* of the sun; UTC, since 1970 */
+    bool is_coarse; /* for pictures that move: few rays into the hemisphere, whose mean is the
+                       background; temperatures of the facets, without planes of the sun's history */
 } render_look;
 
 /* What the scene says. */
 render_look render_stated_look(const scene *s);
 
 /* Looks in another way from the next tile on. Temperatures stay those of the scene's time. */
-status render_change_look(render *r, const render_look *look);
+void render_change_look(render *r, const render_look *look);
 
 /* Seconds of the stages before the first tile, on the host. */
 typedef struct render_stage {

@@ -182,3 +182,10 @@ status temperature_of_pixels(const temperature *t, const ray_scene *rays, uint32
 out:
     return rc;
 }
+
+status temperature_of_hits(const temperature *t, uint32_t count, device_memory hit,
+                           uint32_t first_plane, device_memory out_k, device_memory out_planes)
+{
+    return device_run(t->dev, "facet_temperature", shape1(count), ARG(count), ARG(first_plane),
+                      ARG(hit), ARG(t->facet_temperature_k), ARG(out_k), ARG(out_planes));
+}

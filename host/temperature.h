@@ -21,6 +21,13 @@ device_memory temperature_of_facets(const temperature *t);
 /* 32-bit words in which a pixel's history of the last 24 hours fits. */
 uint32_t temperature_history_words(const temperature *t);
 
+/* Gives the pixels of a tile their facets' temperatures.
+ *   hit          hit_record, shape (count)
+ *   out_k        float, shape (count); 0 where a pixel meets nothing
+ *   out_planes   float, shape (first_plane + SUN_PLANES, count): the last SUN_PLANES get NO_VALUE */
+status temperature_of_hits(const temperature *t, uint32_t count, device_memory hit,
+                           uint32_t first_plane, device_memory out_k, device_memory out_planes);
+
 /* Casts the rays towards the day's suns and computes the temperatures of a tile.
  *   hit           hit_record, shape (count)
  *   out_history   uint32, shape (count, words)

@@ -11,13 +11,10 @@
 #include <time.h>
 
 /* Pixels of a tile: a wish waits for the end of one. */
-enum { TILE_MOST = 1 << 14, TILE_LEAST = 1 << 10 };
+enum { TILE_MOST = 1 << 12, TILE_LEAST = 1 << 8 };
 
-/* The hemisphere of coarse frames: two rings of three rays. */
-static const double coarse_zenith_step_deg = 45.0, coarse_azimuth_step_deg = 120.0;
-
-/* A new time must last this long before temperatures are computed; files are looked at as often. */
-static const double settle_s = 0.2, watch_s = 0.5;
+/* A wish must last this long before exact work begins; files are looked at as often as watch_s. */
+static const double settle_s = 0.1, watch_s = 0.5;
 
 struct session {
     pthread_t thread;
@@ -132,7 +129,7 @@ static void publish(session *s, frame *f)
 }
 
 /* Renders what the look shows, tile by tile; an exact frame is given up when there is a new wish. */
-static status render_frame(session *s, const render_look *look, bool is_exact, unsigned number)
+static status render_frame(session *s, const render_look *look, unsigned number)
 {
     status rc = STATUS_OK;
     const double start_s = now_s();
@@ -142,10 +139,10 @@ static status render_frame(session *s, const render_look *look, bool is_exact, u
     const render_plane *planes = render_planes(s->r, &plane_count);
 
     TRY(frame_create(&f, s->of, &look->camera, planes, plane_count));
-    TRY(render_change_look(s->r, look));
+    render_change_look(s->r, look);
     for (size_t done = 0, all = frame_pixels(f); done < all;) {
         const uint32_t count = all - done < most ? (uint32_t)(all - done) : most;
-        if (is_exact && is_outdated(s, number)) goto out;
+        if (!look->is_coarse && is_outdated(s, number)) goto out;
         rc = render_tile(s->r, (uint32_t)done, count, f->values);
         if (rc == STATUS_MEMORY && most > TILE_LEAST) {
             most /= 2;
@@ -153,10 +150,10 @@ static status render_frame(session *s, const render_look *look, bool is_exact, u
         }
         TRY(rc);
         done += count;
-        if (is_exact) tell(s, "rendering", (double)done / (double)all);
+        if (!look->is_coarse) tell(s, "rendering", (double)done / (double)all);
     }
     f->time_s = look->time_s;
-    f->is_exact = is_exact;
+    f->is_exact = !look->is_coarse;
     f->wish = number;
     f->seconds = now_s() - start_s;
     publish(s, f);
@@ -185,9 +182,8 @@ static status render_coarse(session *s, const session_wish *wish, unsigned numbe
 
     look.camera.columns = (int)ceil(share * wish->columns);
     look.camera.rows = (int)ceil(share * wish->rows);
-    look.hemisphere_zenith_step_deg = coarse_zenith_step_deg;
-    look.hemisphere_azimuth_step_deg = coarse_azimuth_step_deg;
-    return render_frame(s, &look, false, number);
+    look.is_coarse = true;
+    return render_frame(s, &look, number);
 }
 
 /* Waits up to a time for another wish; true: there is none. */
@@ -217,13 +213,13 @@ static status answer(session *s, const session_wish *wish, unsigned number)
     if (!s->r) TRY(render_open(&s->r, s->of->s, s->dev));
     tell(s, "moving", 0.0);
     TRY(render_coarse(s, wish, number));
+    if (!stays(s, number, settle_s)) goto out;
     if (s->of->s->place.time_s != wished_time_s(s, wish)) {
-        if (!stays(s, number, settle_s)) goto out;
         tell(s, "temperatures", 0.0);
         TRY(reopen(s, wish));
     }
     const render_look look = wished_look(s, wish);
-    TRY(render_frame(s, &look, true, number));
+    TRY(render_frame(s, &look, number));
 out:
     return rc;
 }
