@@ -233,4 +233,4 @@ clean:
 	rm -f scenes/*/*.gdb scenes/library/*.ems
 
 -include $(patsubst %.o,%.d,$(LIBRARY) $(COMMANDS:%.c=$(BUILD)/%.o) $(VIEWER:%.c=$(BUILD)/%.o)) $(wildcard $(BUILD)/tests/host/*.d) \
-	$(wildcard $(BUILD)/atmosphere/*.d)
+	$(wildcard $(BUILD)/atmosphere/*.d $(BUILD)/bench/rays/*.d)

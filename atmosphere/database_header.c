@@ -14,7 +14,7 @@ static const char quantities[] =
     "# Lines that begin with # are skipped. Rows ascend in wavelength; the order of the lines is\n"
     "# that of Figure 2.4-3, after twelve grid values. Units: um, cm-1, degrees, km, K, W cm-2 "
     "um-1,\n"
-    "# W cm-2 sr-1 um-1.\n"
+    "# W cm-2 um-1, W cm-2 sr-1 um-1; of a .radc: W m-2 and m.\n"
     "#   E_S      sun outside the atmosphere, normal to the beam, at the distance of the day\n"
     "#   tau1     transmission from space to the ground towards the sun\n"
     "#   tau2     transmission from the ground to the sensor, by zenith angle at the ground\n"

@@ -4,10 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 
-int tool_read(int argc, char **argv, int keeps, tool_options *out)
+int tool_read(int argc, char **argv, int makes, tool_options *out)
 {
     static const struct option options[] = {{"output", required_argument, NULL, 'o'},
                                             {"keep-decks", required_argument, NULL, 'k'},
+                                            {"time", required_argument, NULL, 't'},
                                             {"help", no_argument, NULL, 'h'},
                                             {0}};
     int option;
@@ -18,8 +19,10 @@ int tool_read(int argc, char **argv, int keeps, tool_options *out)
         if (option == 'h') return TOOL_HELP;
         if (option == 'o')
             out->output = optarg;
-        else if (option == 'k' && keeps)
+        else if (option == 'k' && makes)
             out->keep_decks = optarg;
+        else if (option == 't' && makes)
+            out->time = optarg;
         else
             return tool_misuse(argv[0], "'%s' %s", argv[optind - 1],
                                option == ':' ? "needs a value" : "is no option");

@@ -18,12 +18,13 @@ enum { TOOL_USAGE = 2, TOOL_INTERRUPTED = 130, TOOL_HELP = -1 };
 typedef struct tool_options {
     const char *output;     /* -o; NULL: not stated */
     const char *keep_decks; /* --keep-decks; NULL: not stated */
+    const char *time;       /* --time; NULL: not stated */
     int first, count;       /* of the arguments in argv */
 } tool_options;
 
 /* Reads options. Returns 0, TOOL_HELP, or TOOL_USAGE after it has said what is wrong.
- *   keeps   the command knows --keep-decks */
-int tool_read(int argc, char **argv, int keeps, tool_options *out);
+ *   makes   the command knows --time and --keep-decks */
+int tool_read(int argc, char **argv, int makes, tool_options *out);
 
 /* Prints what was warned about and, unless rc is STATUS_OK, the failure; returns the exit code. */
 int tool_end(const char *command, status rc);

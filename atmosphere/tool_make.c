@@ -1,3 +1,4 @@
+#include "atmosphere_container.h"
 #include "database_header.h"
 #include "output_file.h"
 #include "phase_table.h"
@@ -13,16 +14,18 @@
 #include <unistd.h>
 
 static const char help[] =
-    "usage: radsig-atmosphere make SCENE.toml -o FILE.rad [--keep-decks FOLDER]\n"
+    "usage: radsig-atmosphere make SCENE.toml -o FILE.rad [--time ISO] [--keep-decks FOLDER]\n"
     "\n"
     "Makes the radiance database of a scene from its site, time, weather, camera and its table\n"
     "[atmosphere.generate] with LOWTRAN 7, on all processors. A FILE that ends in .radc is "
     "written\n"
     "as the compact container.\n"
     "\n"
+    "  --time ISO            instead of the scene's: 1987-06-24T10:00:00-05:00\n"
     "  --keep-decks FOLDER   writes the card deck of each run there\n";
 
 #define THERMAL_FROM_UM 3.0
+#define AUREOLE_BELOW_UM 5.0
 #define NEAR_SUN_DEG 2.0
 #define DEGREE (M_PI / 180.0)
 
@@ -87,10 +90,20 @@ static void warn_of_aureole(const generation *g, const recipe *r)
         acos(fmin(1.0, cos(zenith) * cos(sun.zenith_rad) +
                            sin(zenith) * sin(sun.zenith_rad) * cos(azimuth - sun.azimuth_rad)));
 
-    if (recipe_is_night(r) || off > NEAR_SUN_DEG * DEGREE) return;
+    if (recipe_is_night(r) || off > NEAR_SUN_DEG * DEGREE ||
+        1e4 / g->plan.wavenumber_max_cm1 > AUREOLE_BELOW_UM)
+        return;
     status_warn("%s: a direction of the sky lies %.1f degrees from the sun, whose aureole is then "
                 "spread over a whole cell; choose another sky_step_deg for bands with sunlight",
                 g->s->path, off / DEGREE);
+}
+
+static status write_database(const atmosphere *air, const char *path)
+{
+    const char *dot = strrchr(path, '.');
+
+    return dot && !strcmp(dot, ".radc") ? atmosphere_container_write(air, path)
+                                        : atmosphere_write(air, path);
 }
 
 static status run(const char *scene_path, const tool_options *options)
@@ -102,6 +115,8 @@ static status run(const char *scene_path, const tool_options *options)
     atmosphere *air = NULL;
 
     TRY(generation_read(&g, scene_path));
+    if (options->time)
+        TRY(site_parse_time(options->time, &g->s->place.time_s, &g->s->place.utc_offset_min));
     TRY(sonde_profile_cards(&profile_cards, g));
     TRY(phase_table_cards(&phase_cards, g->plan.phase_table));
     TRY(recipe_open(&p.r, &g->plan, &g->s->place, profile_cards, phase_cards));
@@ -111,7 +126,7 @@ static status run(const char *scene_path, const tool_options *options)
     TRY(lowtran_run_decks(recipe_decks(p.r), recipe_names(p.r), recipe_count(p.r), take, &p));
     TRY(recipe_finish(p.r, &air));
     TRY(database_header(&air->header, g, p.r));
-    TRY(atmosphere_write(air, options->output));
+    TRY(write_database(air, options->output));
 out:
     atmosphere_free(air);
     recipe_free(p.r);

@@ -1,5 +1,6 @@
 #include "atmosphere.h"
 
+#include "atmosphere_container.h"
 #include "output_file.h"
 #include "record_file.h"
 
@@ -322,8 +323,10 @@ status atmosphere_read(atmosphere **out, const char *path)
     status rc = STATUS_OK;
     record_file *file = NULL;
     double altitude_km;
-    atmosphere *a = calloc(1, sizeof *a);
+    atmosphere *a = NULL;
 
+    if (atmosphere_container_is(path)) return atmosphere_container_read(out, path);
+    a = calloc(1, sizeof *a);
     NEED(a, STATUS_MEMORY, "radiance database");
     TRY(record_file_open(&file, path));
     TRY(record_file_header(file, &a->header));

@@ -35,7 +35,7 @@ typedef struct atmosphere {
     double *level_altitude_m, *level_temperature_k; /* (level_count), altitudes ascend */
 } atmosphere;
 
-/* Reads a .rad file: W cm-2 sr-1 um-1 and km at its edge; the order of its lines stands in
+/* Reads a .rad file, or a container (atmosphere_container.h): W cm-2 sr-1 um-1 and km at its edge; the order of its lines stands in
  * docs/file-formats.md. Fails with STATUS_FORMAT if a transmission leaves 0..1, a radiance is
  * negative or above 1 W cm-2 sr-1 um-1, or a grid is uneven or incomplete. */
 status atmosphere_read(atmosphere **out, const char *path);

@@ -1,0 +1,276 @@
+#include "atmosphere_container.h"
+
+#include "output_file.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char magic[] = "RADSIG ATMOSPHERE 1\n";
+
+#define RADIANCE_LIMIT 1e4 /* W m-2 sr-1 um-1, as in the text file */
+
+enum { LINE_SIZE = 1024, COUNT_LIMIT = 1000000, NUMBER_KEYS = 14, ARRAYS = 12 };
+
+/* A key of the JSON object, a number: in the struct a double, or an int. */
+typedef struct number_key {
+    const char *name;
+    double *number;
+    int *count;
+} number_key;
+
+/* An array of the file, with the range of its values. */
+typedef struct block {
+    double **at;
+    size_t size;
+    double low, high;
+} block;
+
+static const char arrays_text[] =
+    "solar_irradiance (n), tau1 (n), path_range_m (m), tau2 (m, n), path_emitted (m, n), "
+    "path_scattered (m, n), sky_emitted (n), sky_scattered (n), sky_emitted_direction (zenith, "
+    "azimuth, n), sky_scattered_direction (zenith, azimuth, n), level_altitude_m (level), "
+    "level_temperature_k (level); n = point_count, ascending wavelength, m = path_count";
+
+static void list_numbers(atmosphere *a, number_key out[NUMBER_KEYS])
+{
+    const number_key keys[NUMBER_KEYS] = {
+        {"sensor_altitude_m", &a->sensor_altitude_m, NULL},
+        {"wavenumber_min_cm1", &a->wavenumber_min_cm1, NULL},
+        {"wavenumber_max_cm1", &a->wavenumber_max_cm1, NULL},
+        {"wavenumber_step_cm1", &a->wavenumber_step_cm1, NULL},
+        {"point_count", NULL, &a->point_count},
+        {"path_zenith_first_deg", &a->path_zenith_first_deg, NULL},
+        {"path_zenith_step_deg", &a->path_zenith_step_deg, NULL},
+        {"path_zenith_meaningful_deg", &a->path_zenith_meaningful_deg, NULL},
+        {"path_count", NULL, &a->path_count},
+        {"zenith_step_deg", &a->zenith_step_deg, NULL},
+        {"zenith_count", NULL, &a->zenith_count},
+        {"azimuth_step_deg", &a->azimuth_step_deg, NULL},
+        {"azimuth_count", NULL, &a->azimuth_count},
+        {"level_count", NULL, &a->level_count}};
+
+    memcpy(out, keys, sizeof keys);
+}
+
+static void list_blocks(atmosphere *a, block out[ARRAYS])
+{
+    const size_t n = (size_t)a->point_count, m = (size_t)a->path_count;
+    const size_t sky = (size_t)a->zenith_count * (size_t)a->azimuth_count * n;
+    const size_t levels = (size_t)a->level_count;
+    const double most = RADIANCE_LIMIT;
+    const block blocks[ARRAYS] = {{&a->solar_irradiance, n, 0.0, most},
+                                  {&a->tau1, n, 0.0, 1.0},
+                                  {&a->path_range_m, m, 0.0, 1e8},
+                                  {&a->tau2, m * n, 0.0, 1.0},
+                                  {&a->path_emitted, m * n, 0.0, most},
+                                  {&a->path_scattered, m * n, 0.0, most},
+                                  {&a->sky_emitted, n, 0.0, most},
+                                  {&a->sky_scattered, n, 0.0, most},
+                                  {&a->sky_emitted_direction, sky, 0.0, most},
+                                  {&a->sky_scattered_direction, sky, 0.0, most},
+                                  {&a->level_altitude_m, levels, -1e3, 1e6},
+                                  {&a->level_temperature_k, levels, 100.0, 1000.0}};
+
+    memcpy(out, blocks, sizeof blocks);
+}
+
+bool atmosphere_container_is(const char *path)
+{
+    char start[sizeof magic] = "";
+    FILE *file = fopen(path, "rb");
+    const bool is = file && fread(start, 1, sizeof magic - 1, file) == sizeof magic - 1 &&
+                    !strcmp(start, magic);
+
+    if (file) fclose(file);
+    return is;
+}
+
+/* Reads up to the object's end: the number keys in any order, the header's lines. */
+static status read_object(atmosphere *a, FILE *file, const char *path)
+{
+    status rc = STATUS_OK;
+    char line[LINE_SIZE], name[64];
+    number_key keys[NUMBER_KEYS];
+    bool has[NUMBER_KEYS] = {false};
+    size_t length;
+    double value;
+    FILE *header = open_memstream(&a->header, &length);
+
+    NEED(header, STATUS_MEMORY, "%s: no memory to read it", path);
+    list_numbers(a, keys);
+    while (fgets(line, sizeof line, file) && strcmp(line, "}\n") != 0) {
+        if (*line == '"' && line[1] == '#') {
+            for (const char *c = line + 1; *c && *c != '"'; c++) {
+                if (*c == '\\' && c[1]) c++;
+                fputc(*c, header);
+            }
+            fputc('\n', header);
+        }
+        if (sscanf(line, "\"%63[a-z0-9_]\": %lf", name, &value) != 2) continue;
+        for (int i = 0; i < NUMBER_KEYS; i++) {
+            if (strcmp(name, keys[i].name) != 0) continue;
+            has[i] = true;
+            if (keys[i].number) *keys[i].number = value;
+            if (!keys[i].count) continue;
+            NEED(value >= 1.0 && value <= COUNT_LIMIT && value == floor(value), STATUS_FORMAT,
+                 "%s: %s is %g, expected a whole number from 1 to %d", path, name, value,
+                 COUNT_LIMIT);
+            *keys[i].count = (int)value;
+        }
+    }
+    for (int i = 0; i < NUMBER_KEYS; i++)
+        NEED(has[i], STATUS_FORMAT, "%s: the key %s is missing", path, keys[i].name);
+out:
+    if (header) fclose(header);
+    return rc;
+}
+
+/* The file's size tells whether the counts can be true before anything is allocated. */
+static status check_size(const block *blocks, FILE *file, const char *path)
+{
+    status rc = STATUS_OK;
+    const long here = ftell(file);
+    double values = 0.0;
+
+    for (int i = 0; i < ARRAYS; i++) values += (double)blocks[i].size;
+    NEED(here >= 0 && fseek(file, 0, SEEK_END) == 0, STATUS_FILE, "%s: %s", path, strerror(errno));
+    const double bytes = (double)(ftell(file) - here);
+    NEED(bytes == values * (double)sizeof(float), STATUS_FORMAT,
+         "%s: %.0f bytes of numbers stand there, expected %.0f by the counts", path, bytes,
+         values * (double)sizeof(float));
+    NEED(fseek(file, here, SEEK_SET) == 0, STATUS_FILE, "%s: %s", path, strerror(errno));
+out:
+    return rc;
+}
+
+static status read_block(const block *b, int number, FILE *file, const char *path)
+{
+    status rc = STATUS_OK;
+    float *values = malloc(b->size * sizeof *values);
+
+    *b->at = malloc(b->size * sizeof **b->at);
+    NEED(values && *b->at, STATUS_MEMORY, "%s: no memory to read it", path);
+    NEED(fread(values, sizeof *values, b->size, file) == b->size, STATUS_FILE, "%s: ends early",
+         path);
+    for (size_t i = 0; i < b->size; i++) {
+        const double value = (double)values[i];
+        NEED(value >= b->low && value <= b->high, STATUS_FORMAT,
+             "%s: value %zu of array %d is %g, expected %g to %g", path, i + 1, number + 1, value,
+             b->low, b->high);
+        (*b->at)[i] = value;
+    }
+out:
+    free(values);
+    return rc;
+}
+
+/* Whether the grids are those of a database, and the spectral one written out. */
+static status set_grids(atmosphere *a, const char *path)
+{
+    status rc = STATUS_OK;
+    const size_t n = (size_t)a->point_count;
+    const double last = a->path_zenith_first_deg + (a->path_count - 1) * a->path_zenith_step_deg;
+
+    NEED(a->wavenumber_min_cm1 >= 100.0 && a->wavenumber_max_cm1 <= 50000.0 &&
+             fabs(a->wavenumber_max_cm1 - a->wavenumber_min_cm1 -
+                  (a->point_count - 1) * a->wavenumber_step_cm1) < .01,
+         STATUS_FORMAT, "%s: wavenumber_min_cm1, _max_cm1, _step_cm1 and point_count do not fit",
+         path);
+    NEED(a->path_zenith_first_deg >= 0.0 && a->path_zenith_step_deg > 0.0 && last <= 90.0,
+         STATUS_FORMAT, "%s: the path's zenith angles leave 0 to 90", path);
+    NEED(a->zenith_count > 1 && fabs((a->zenith_count - 1) * a->zenith_step_deg - 90.0) < 1e-3 &&
+             (a->azimuth_count == 1 ||
+              fabs((a->azimuth_count - 1) * a->azimuth_step_deg - 360.0) < 1e-3),
+         STATUS_FORMAT, "%s: the sky's angles do not fill 0 to 90 and 0 to 360", path);
+    a->wavelength_min_um = 1e4 / a->wavenumber_max_cm1;
+    a->wavelength_max_um = 1e4 / a->wavenumber_min_cm1;
+    a->wavelength_um = malloc(n * sizeof(double));
+    a->wavenumber_cm1 = malloc(n * sizeof(double));
+    NEED(a->wavelength_um && a->wavenumber_cm1, STATUS_MEMORY, "%s: no memory to read it", path);
+    for (int i = 0; i < a->point_count; i++) {
+        a->wavenumber_cm1[i] = a->wavenumber_max_cm1 - i * a->wavenumber_step_cm1;
+        a->wavelength_um[i] = 1e4 / a->wavenumber_cm1[i];
+    }
+out:
+    return rc;
+}
+
+status atmosphere_container_read(atmosphere **out, const char *path)
+{
+    status rc = STATUS_OK;
+    block blocks[ARRAYS];
+    FILE *file = fopen(path, "rb");
+    atmosphere *a = calloc(1, sizeof *a);
+
+    NEED(a, STATUS_MEMORY, "%s: no memory to read it", path);
+    NEED(file && fseek(file, (long)strlen(magic), SEEK_SET) == 0, STATUS_FILE, "%s: %s", path,
+         strerror(errno));
+    TRY(read_object(a, file, path));
+    list_blocks(a, blocks);
+    TRY(check_size(blocks, file, path));
+    TRY(set_grids(a, path));
+    for (int i = 0; i < ARRAYS; i++) TRY(read_block(&blocks[i], i, file, path));
+    for (int i = 1; i < a->level_count; i++)
+        NEED(a->level_altitude_m[i] > a->level_altitude_m[i - 1], STATUS_FORMAT,
+             "%s: altitude %d does not rise", path, i + 1);
+    *out = a;
+    a = NULL;
+out:
+    if (file) fclose(file);
+    atmosphere_free(a);
+    return rc;
+}
+
+static void write_header(FILE *stream, const char *header)
+{
+    fputs("\"header\": [\n", stream);
+    while (*header) {
+        const size_t length = strcspn(header, "\n");
+        fputc('"', stream);
+        for (size_t i = 0; i < length; i++) {
+            if (header[i] == '"' || header[i] == '\\') fputc('\\', stream);
+            fputc(header[i], stream);
+        }
+        header += length + (header[length] == '\n');
+        fputs(*header ? "\",\n" : "\"\n", stream);
+    }
+    fputs("]\n}\n", stream);
+}
+
+static void write_object(FILE *stream, atmosphere *a)
+{
+    number_key keys[NUMBER_KEYS];
+
+    list_numbers(a, keys);
+    fputs(magic, stream);
+    fputs("{\n\"units\": \"W m-2 sr-1 um-1, W m-2 um-1\",\n", stream);
+    for (int i = 0; i < NUMBER_KEYS; i++)
+        fprintf(stream, "\"%s\": %.10g,\n", keys[i].name,
+                keys[i].number ? *keys[i].number : (double)*keys[i].count);
+    fprintf(stream, "\"arrays\": \"float32, little-endian: %s\",\n", arrays_text);
+    write_header(stream, a->header);
+}
+
+status atmosphere_container_write(const atmosphere *a, const char *path)
+{
+    status rc = STATUS_OK;
+    output_file *file = NULL;
+    block blocks[ARRAYS];
+    atmosphere copy = *a; /* the lists point into it; nothing is changed */
+
+    TRY(output_file_open(&file, path));
+    write_object(output_file_stream(file), &copy);
+    list_blocks(&copy, blocks);
+    for (int i = 0; i < ARRAYS; i++)
+        for (size_t k = 0; k < blocks[i].size; k++) {
+            const float value = (float)(*blocks[i].at)[k];
+            fwrite(&value, sizeof value, 1, output_file_stream(file));
+        }
+    TRY(output_file_commit(file));
+out:
+    output_file_free(file);
+    return rc;
+}
