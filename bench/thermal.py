@@ -47,7 +47,7 @@ def measure(context, kernel, rows):
     """Seconds of each run, its temperatures kept on the device."""
     facets, materials = bodies(rows)
     span = np.zeros(1, SPAN)
-    span[0] = (FACETS, STEPS - 1, 1, 3, 1.0, STEP_S, 96)
+    span[0] = (FACETS, STEPS - 1, 1, 3, 1.0, STEP_S, 96, STEPS)
     lit = np.random.default_rng(2).integers(0, 2**32, (3, FACETS), np.uint32)
     memory = [cl.Buffer(context, cl.mem_flags.COPY_HOST_PTR, hostbuf=a)
               for a in (facets, materials, weather(), lit)]

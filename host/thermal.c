@@ -50,6 +50,8 @@ static forcing_record forcing_of(const weather_record *w, sun_position sun)
         .rain_w_m2_k = (float)(WATER_J_M3_K * rain_m_s),
         /* Dry steps take the air's, so that a value between steps is one of rain. */
         .rain_temperature_k = (float)(rain_m_s > 0.0 ? w->precipitation_temperature_k : air_k),
+        .specific_humidity = (float)weather_specific_humidity(w),
+        .pressure_pa = (float)w->pressure_pa,
     };
 
     sun_direction(sun, direction);
@@ -128,6 +130,7 @@ static status compute(const thermal *t, const batch *b, thermal_span span, float
     span.sunlit_words = b->word_count;
     span.sunlit_period = b->slot_count;
     span.step_s = (float)t->step_s;
+    span.step_count = (uint)t->step_count;
     TRY(device_allocate(t->dev, &facets, b->count * sizeof *b->facet, b->facet));
     if (b->word_count > 0)
         TRY(device_allocate(t->dev, &lit, b->count * b->word_count * sizeof *b->lit, b->lit));

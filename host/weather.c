@@ -69,6 +69,13 @@ double weather_dew_point_k(double air_temperature_k, double relative_humidity)
     return KELVIN + 243.12 * exponent / (17.62 - exponent);
 }
 
+double weather_specific_humidity(const weather_record *r)
+{
+    const double vapour_pa = weather_saturation_pa(r->dew_point_k);
+
+    return 0.622 * vapour_pa / (r->pressure_pa - 0.378 * vapour_pa);
+}
+
 double weather_day_start_h(const weather *w)
 {
     const double end_h = w->record[w->count - 1].time_h + w->interval_s / 3600.0;

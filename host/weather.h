@@ -58,6 +58,9 @@ double weather_origin_s(const weather *w, const site *place);
 /* Vapour pressure of saturated air over water: Magnus with the constants of WMO-No. 8 (2008). */
 double weather_saturation_pa(double temperature_k);
 
+/* Kilograms of water vapour in a kilogram of air. */
+double weather_specific_humidity(const weather_record *r);
+
 /* Dew point from relative humidity (at least .0001), the inverse of the same. */
 double weather_dew_point_k(double air_temperature_k, double relative_humidity);
 

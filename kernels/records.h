@@ -86,7 +86,8 @@ typedef struct forcing_record {
     float sun[3];       /* unit vector towards the sun */
     float rain_w_m2_k;  /* rho_w c_w R: heat that rain brings per kelvin */
     float rain_temperature_k;
-    float unused[2];
+    float specific_humidity; /* of the air, kg of vapour per kg */
+    float pressure_pa;
 } forcing_record;
 RECORD_SIZE(forcing_record, 48);
 

@@ -1,15 +1,5 @@
+#include "lit.h"
 #include "thermal.h"
-
-/* Sunlit or not at a step. */
-static lanes lit(global const uint *sunlit, thermal_span span, uint first, uint step)
-{
-    const uint slot = span.sunlit_period ? step % span.sunlit_period : step;
-
-    if (span.sunlit_words == 0) return (lanes)1.0f;
-    const lanes_bits word =
-        lanes_load_bits(sunlit + (size_t)(slot / 32) * span.facet_count, first, span.facet_count);
-    return lanes_of_bits(word >> (slot % 32) & 1u);
-}
 
 static void set_bodies(thermal_body *body, lanes *stated_k, thermal_span span, uint first,
                        global const facet_record *facets, global const material_record *materials)
@@ -27,9 +17,7 @@ static void set_bodies(thermal_body *body, lanes *stated_k, thermal_span span, u
 /* Launch: (facet_count / LANES_WIDTH, rounded up).
  * facets: shape (facet_count), thickness above 0 and a material of `materials` unless its
  * temperature is stated; forcing: (first_step + row_count), span.step_s apart; sunlit:
- * (span.sunlit_words, facet_count), bit `slot % 32` of word `slot / 32` set where the sun reaches
- * the facet at step slot, slot + period ...; NULL without words; temperature_k: (row_count,
- * facet_count). */
+ * see lit.h; temperature_k: (row_count, facet_count). */
 kernel void thermal(const thermal_span span, global const facet_record *facets,
                     global const material_record *materials, global const forcing_record *forcing,
                     global const uint *sunlit, global float *temperature_k)
@@ -40,13 +28,13 @@ kernel void thermal(const thermal_span span, global const facet_record *facets,
     thermal_body body;
     lanes stated_k;
     set_bodies(&body, &stated_k, span, first, facets, materials);
-    thermal_load before = thermal_load_of(&body, forcing[0], lit(sunlit, span, first, 0));
+    thermal_load before = thermal_load_of(&body, forcing[0], lit_at(sunlit, span, first, 0));
     thermal_state state = thermal_start(&body, &before);
     lanes earlier_k = state.front_k;
     for (uint step = 0; step < span.first_step + span.row_count; step++) {
         if (step > 0) {
             const thermal_load after =
-                thermal_load_of(&body, forcing[step], lit(sunlit, span, first, step));
+                thermal_load_of(&body, forcing[step], lit_at(sunlit, span, first, step));
             earlier_k = state.front_k;
             thermal_advance(&state, &body, &before, &after, span.step_s);
             before = after;

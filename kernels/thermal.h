@@ -30,7 +30,7 @@ typedef struct thermal_span {
     float weight;      /* above 0, at most 1 */
     float step_s;
     uint sunlit_period; /* steps after which the mask begins anew; 0: never */
-    uint unused;
+    uint step_count;    /* of the weather */
 } thermal_span;
 RECORD_SIZE(thermal_span, 32);
 

@@ -22,7 +22,7 @@ def launch(opencl, kernel, width, facets, materials, forcing, *, first=0, rows=N
     rows = len(forcing) if rows is None else rows
     words = 0 if lit is None else (len(lit) + 31) // 32
     span = np.zeros(1, SPAN)
-    span[0] = (len(facets), first, rows, words, weight, step_s, period)
+    span[0] = (len(facets), first, rows, words, weight, step_s, period, len(forcing))
     copy = cl.mem_flags.COPY_HOST_PTR
     memory = [cl.Buffer(context, copy, hostbuf=a) for a in (facets, materials, forcing)]
     sunlit = None if lit is None else cl.Buffer(context, copy, hostbuf=packed(lit, words))
