@@ -115,7 +115,7 @@ static void print_sensor(const scene *s)
         printf(", gain %g per W m-2 sr-1, offset %g\n", b->gain, b->offset);
     }
     printf("render      %s mode, thermal %s, hemisphere every %g x %g deg\n",
-           s->thesis ? "thesis" : "exact", s->thermal == SCENE_THERMAL_THERM ? "therm" : "fixed",
+           s->thesis ? "thesis" : "exact", scene_thermal_name(s->thermal),
            s->hemisphere_zenith_step_deg, s->hemisphere_azimuth_step_deg);
 }
 

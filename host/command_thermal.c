@@ -6,6 +6,7 @@
 
 #include <getopt.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +14,7 @@
 static const char help[] =
     "usage: radsig thermal --materials FILE --material NAME --weather FILE --site LAT,LON\n"
     "                      --date YYYY-MM-DD --utc-offset H --thickness-cm X\n"
-    "                      [--slope D --azimuth D --power-w-m2 X --model therm]\n"
+    "                      [--slope D --azimuth D --power-w-m2 X --model therm|layered]\n"
     "\n"
     "Takes one facet in full sun through a weather history and prints time_h,temperature_c, a row\n"
     "per weather record. Degrees north and east are positive.\n"
@@ -22,12 +23,15 @@ static const char help[] =
     "  --utc-offset   hours that local time is ahead of UTC\n"
     "  --slope        0 level and facing up (the default), 90 a wall\n"
     "  --azimuth      of the outward normal, clockwise from north (default 0)\n"
-    "  --power-w-m2   self-generated (default 0)\n";
+    "  --power-w-m2   self-generated (default 0)\n"
+    "  --model        therm (the default), or layered: unequal nodes, McAdams' convection, air\n"
+    "                 behind where abs(exposed area) is above .75\n";
 
 typedef struct thermal_request {
     const char *materials, *material, *weather;
     site place;
     double slope_deg, azimuth_deg, thickness_cm, power_w_m2;
+    bool is_layered;
 } thermal_request;
 
 enum { MATERIALS, MATERIAL, WEATHER, SITE, DATE, OFFSET, SLOPE, AZIMUTH, THICKNESS, POWER, MODEL };
@@ -78,9 +82,9 @@ static int check_values(char *value[VALUES], thermal_request *out)
     if (!value[THICKNESS])
         return command_misuse("thermal",
                               "needs --thickness-cm: a material has none, its facets have");
-    if (value[MODEL] && strcmp(value[MODEL], "therm"))
-        return command_misuse("thermal", "--model '%s' is not available, expected therm",
-                              value[MODEL]);
+    if (value[MODEL] && strcmp(value[MODEL], "therm") && strcmp(value[MODEL], "layered"))
+        return command_misuse("thermal", "--model '%s': expected therm or layered", value[MODEL]);
+    out->is_layered = value[MODEL] && !strcmp(value[MODEL], "layered");
     if (check_place(value, &out->place)) return EXIT_USAGE;
     if (check_number(value[SLOPE], SLOPE, 0.0, 180.0, &out->slope_deg) ||
         check_number(value[AZIMUTH], AZIMUTH, -360.0, 360.0, &out->azimuth_deg) ||
@@ -138,7 +142,7 @@ static material_record record_of(const material *m)
     };
 }
 
-static status compute(const facet_record *facet, const material_record *matter, const weather *w,
+static status compute(const facet_record *facet, const thermal_matter *matter, const weather *w,
                       const site *place, float *out_temperature_k)
 {
     status rc = STATUS_OK;
@@ -146,7 +150,7 @@ static status compute(const facet_record *facet, const material_record *matter, 
     thermal *t = NULL;
 
     TRY(device_open(&dev, -1));
-    TRY(thermal_open(&t, dev, matter, 1, w, place));
+    TRY(thermal_open(&t, dev, matter, w, place));
     TRY(thermal_history(t, facet, out_temperature_k));
 out:
     thermal_free(t);
@@ -161,12 +165,14 @@ static status run(const thermal_request *request)
     weather *w = NULL;
     float *temperature_k = NULL;
     const facet_record facet = facet_of(request);
-    material_record matter;
+    const layered_matter layered = layered_matter_default();
+    material_record record;
+    const thermal_matter matter = {&record, request->is_layered ? &layered : NULL, 1};
 
     TRY(material_library_read(&library, request->materials));
     const material *named = material_by_name(library, request->material);
     NEED(named, STATUS_ARGUMENT, "%s: has no material '%s'", request->materials, request->material);
-    matter = record_of(named);
+    record = record_of(named);
     TRY(weather_read(&w, request->weather));
     temperature_k = malloc(w->count * sizeof *temperature_k);
     NEED(temperature_k, STATUS_MEMORY, "no memory for %zu temperatures", w->count);

@@ -106,7 +106,7 @@ status render_summary_write(output_folder *folder, const char *name, const rende
         .scene = s->name,
         .scene_path = summary->scene_path,
         .mode = s->thesis ? "thesis" : "exact",
-        .thermal = s->thermal == SCENE_THERMAL_THERM ? "therm" : "fixed",
+        .thermal = scene_thermal_name(s->thermal),
         .time = time,
         .latitude_deg = s->place.latitude_deg,
         .longitude_deg = s->place.longitude_deg,

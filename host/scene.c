@@ -95,7 +95,7 @@ static void set_ground(scene_reader *reader)
     for (uint32_t i = 0; i < g->facet_count && s->ground_thickness_m == 0.0; i++)
         if (s->material_of[g->material[i]] == s->ground_material)
             s->ground_thickness_m = (double)g->thickness_m[i];
-    if (s->thermal == SCENE_THERMAL_THERM && s->ground_thickness_m == 0.0)
+    if (s->thermal != SCENE_THERMAL_FIXED && s->ground_thickness_m == 0.0)
         scene_fail(reader, NULL,
                    "ground_material %s has no thickness: state thickness_cm in its "
                    "[[material]]",
@@ -130,8 +130,9 @@ static void check_weather(scene_reader *reader)
 
     for (uint32_t i = 0; s->shape && i < s->shape->facet_count && !computed; i++)
         computed = s->shape->stated_temperature_k[i] == 0.0f;
-    if (s->thermal == SCENE_THERMAL_THERM && computed && !toml_node_get(reader->root, "weather"))
-        scene_fail(reader, NULL, "[weather]: the table is missing, thermal = \"therm\" needs it");
+    if (s->thermal != SCENE_THERMAL_FIXED && computed && !toml_node_get(reader->root, "weather"))
+        scene_fail(reader, NULL, "[weather]: the table is missing, thermal = \"%s\" needs it",
+                   scene_thermal_name(s->thermal));
 }
 
 /* A band that was read must lie within the atmosphere. */
@@ -280,6 +281,13 @@ void scene_free(scene *s)
     free(s);
 }
 
+const char *scene_thermal_name(scene_thermal thermal)
+{
+    static const char *const names[] = {"fixed", "therm", "layered"};
+
+    return names[thermal];
+}
+
 uint32_t scene_emissivity_rows(const scene *s)
 {
     uint32_t rows = 0;
@@ -291,7 +299,7 @@ uint32_t scene_emissivity_rows(const scene *s)
 
 static double stated_temperature_k(const scene *s, const scene_material *m, double of_facet_k)
 {
-    if (of_facet_k > 0.0 || s->thermal == SCENE_THERMAL_THERM) return of_facet_k;
+    if (of_facet_k > 0.0 || s->thermal != SCENE_THERMAL_FIXED) return of_facet_k;
     return m->temperature_k;
 }
 

@@ -8,6 +8,7 @@
 #include "band.h"
 #include "emissivity.h"
 #include "geometry.h"
+#include "layered.h"
 #include "site.h"
 #include "view.h"
 #include "weather.h"
@@ -16,7 +17,8 @@
 
 typedef enum scene_thermal {
     SCENE_THERMAL_FIXED, /* every facet keeps its stated temperature */
-    SCENE_THERMAL_THERM
+    SCENE_THERMAL_THERM,
+    SCENE_THERMAL_LAYERED
 } scene_thermal;
 
 /* A material that the scene uses. */
@@ -28,7 +30,11 @@ typedef struct scene_material {
     double thickness_m;     /* of facets that state none; 0: not stated */
     double temperature_k;   /* for thermal fixed; 0: not stated */
     bool two_sided;
+    layered_matter layered;
 } scene_material;
+
+/* "fixed", "therm", "layered". */
+const char *scene_thermal_name(scene_thermal thermal);
 
 /* A file that the scene was read from. */
 typedef struct scene_input {

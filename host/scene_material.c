@@ -14,6 +14,7 @@ typedef struct stated_material {
     double density_kg_m3, specific_heat_j_kg_k, conductivity_w_m_k;
     double solar_absorptance, exposed_area;
     bool two_sided;
+    layered_matter layered;
 } stated_material;
 
 /* Where materials are looked up. */
@@ -39,7 +40,8 @@ static stated_material read_stated(scene_reader *reader, const toml_node *node)
                          .specific_heat_j_kg_k = NAN,
                          .conductivity_w_m_k = NAN,
                          .solar_absorptance = NAN,
-                         .exposed_area = NAN};
+                         .exposed_area = NAN,
+                         .layered = layered_matter_default()};
 
     scene_table_require(&t, "name", "the name that the geometry gives it");
     scene_table_string(&t, "name", &m.name);
@@ -54,6 +56,7 @@ static stated_material read_stated(scene_reader *reader, const toml_node *node)
     scene_table_number(&t, "solar_absorptance", 0.0, 1.0, &m.solar_absorptance);
     scene_table_number(&t, "exposed_area", -1.0, 1.0, &m.exposed_area);
     scene_table_bool(&t, "two_sided", &m.two_sided);
+    scene_read_layered(&t, &m.layered);
     scene_table_close(&t);
     return m;
 }
@@ -185,16 +188,17 @@ static void check_material(scene_reader *reader, const scene_material *m,
         scene_fail(reader, node, "material %s: specular_share is %g, expected 0 or 1", m->name,
                    (double)r->specular_share);
     if (reader->s->thermal == SCENE_THERMAL_FIXED) return;
+    const char *model = scene_thermal_name(reader->s->thermal);
     if (!(r->density_kg_m3 > 0.0f) || !(r->specific_heat_j_kg_k > 0.0f))
         scene_fail(reader, node,
-                   "material %s: thermal = \"therm\" needs density_kg_m3, specific_heat_j_kg_k and "
+                   "material %s: thermal = \"%s\" needs density_kg_m3, specific_heat_j_kg_k and "
                    "conductivity_w_m_k",
-                   m->name);
+                   m->name, model);
     if (stated && stated->emissivity_path && !(r->thermal_emissivity > 0.0f))
         scene_fail(reader, node,
-                   "material %s: thermal = \"therm\" needs emissivity, the broad-band one, beside "
+                   "material %s: thermal = \"%s\" needs emissivity, the broad-band one, beside "
                    "emissivity_file",
-                   m->name);
+                   m->name, model);
 }
 
 static void add_material(const material_sources *from, const char *name, const material *known,
@@ -206,6 +210,7 @@ static void add_material(const material_sources *from, const char *name, const m
     m->name = strdup(name);
     m->record = make_record(from, known, stated);
     read_emissivity(from, m, known, stated);
+    m->layered = stated ? stated->layered : layered_matter_default();
     if (stated) {
         m->thickness_m = isnan(stated->thickness_cm) ? 0.0 : .01 * stated->thickness_cm;
         m->temperature_k = isnan(stated->temperature_k) ? 0.0 : stated->temperature_k;

@@ -20,6 +20,9 @@ void scene_read_atmosphere(scene_reader *reader);
 /* [[geometry]]. */
 void scene_read_geometry(scene_reader *reader);
 
+/* The keys of a [[material]] that thermal = "layered" uses; without them `out` is left as it is. */
+void scene_read_layered(scene_table *t, layered_matter *out);
+
 /* [library] and [[material]]; after geometry and render: only what is used is kept. */
 void scene_read_materials(scene_reader *reader, const char *ground_material);
 

@@ -129,7 +129,7 @@ static void read_hemisphere(scene_reader *reader, const toml_node *node)
 void scene_read_render(scene_reader *reader)
 {
     static const char *const modes[] = {"exact", "thesis"};
-    static const char *const thermals[] = {"fixed", "therm"};
+    static const char *const thermals[] = {"fixed", "therm", "layered"};
     static const char *const radiances[] = {"band", "mean"};
     scene *s = reader->s;
     scene_table t = scene_table_open(reader, toml_node_get(reader->root, "render"), "render");
@@ -137,7 +137,7 @@ void scene_read_render(scene_reader *reader)
     const toml_node *step = scene_table_node(&t, "hemisphere_step_deg");
 
     scene_table_word(&t, "mode", modes, 2, &mode);
-    scene_table_word(&t, "thermal", thermals, 2, &thermal);
+    scene_table_word(&t, "thermal", thermals, 3, &thermal);
     scene_table_word(&t, "radiance", radiances, 2, &radiance);
     s->thesis = mode == 1;
     s->thermal = (scene_thermal)thermal;

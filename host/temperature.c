@@ -33,11 +33,18 @@ static status open_model(temperature *t, const scene *s)
 {
     status rc = STATUS_OK;
     material_record *material = malloc((s->material_count + 1) * sizeof *material);
+    layered_matter *layered = malloc((s->material_count + 1) * sizeof *layered);
+    const thermal_matter matter = {material, s->thermal == SCENE_THERMAL_LAYERED ? layered : NULL,
+                                   s->material_count};
 
-    NEED(material, STATUS_MEMORY, "no memory for %u materials", s->material_count);
-    for (uint32_t i = 0; i < s->material_count; i++) material[i] = s->materials[i].record;
-    TRY(thermal_open(&t->model, t->dev, material, s->material_count, s->history, &s->place));
+    NEED(material && layered, STATUS_MEMORY, "no memory for %u materials", s->material_count);
+    for (uint32_t i = 0; i < s->material_count; i++) {
+        material[i] = s->materials[i].record;
+        layered[i] = s->materials[i].layered;
+    }
+    TRY(thermal_open(&t->model, t->dev, &matter, s->history, &s->place));
 out:
+    free(layered);
     free(material);
     return rc;
 }

@@ -16,6 +16,8 @@ enum { LANES = 16 }; /* facets of a work-item */
 struct thermal {
     device *dev;
     material_record *material;
+    layered_matter *layered; /* NULL: as THERM does it */
+    double mean_air_k;
     device_memory materials, forcing;
     size_t step_count;
     double step_s, time_h; /* of the image, since the first step */
@@ -35,7 +37,7 @@ static double sky_emissivity(const weather_record *w)
     return fmin(1.0, clear * (1.0 + cloud_rise[w->cloud_type] * cover * cover));
 }
 
-static forcing_record forcing_of(const weather_record *w, sun_position sun)
+static forcing_record forcing_of(const weather_record *w, sun_position sun, bool is_layered)
 {
     const double air_k = w->air_temperature_k;
     const double rain_m_s = w->precipitation_type ? w->precipitation_m_s : 0.0;
@@ -44,7 +46,8 @@ static forcing_record forcing_of(const weather_record *w, sun_position sun)
         .air_temperature_k = (float)air_k,
         .sky_longwave_w_m2 =
             (float)(sky_emissivity(w) * (double)STEFAN_BOLTZMANN * air_k * air_k * air_k * air_k),
-        .convection_w_m2_k = (float)(9.0 + 1.2 * w->wind_m_s),
+        .convection_w_m2_k =
+            (float)(is_layered ? 5.7 + 3.8 * w->wind_m_s : 9.0 + 1.2 * w->wind_m_s),
         .direct_w_m2 = sun.zenith_rad < 0.5 * M_PI ? (float)w->direct_w_m2 : 0.0f,
         .diffuse_w_m2 = (float)w->diffuse_w_m2,
         .rain_w_m2_k = (float)(WATER_J_M3_K * rain_m_s),
@@ -68,8 +71,9 @@ static status upload_forcing(thermal *t, const weather *w, const site *place)
     NEED(forcing, STATUS_MEMORY, "no memory for %zu steps of weather", w->count);
     for (size_t i = 0; i < w->count; i++) {
         const double time_s = origin_s + 3600.0 * w->record[i].time_h;
-        forcing[i] =
-            forcing_of(&w->record[i], sun_at(time_s, place->latitude_deg, place->longitude_deg));
+        const sun_position sun = sun_at(time_s, place->latitude_deg, place->longitude_deg);
+        forcing[i] = forcing_of(&w->record[i], sun, t->layered != NULL);
+        t->mean_air_k += w->record[i].air_temperature_k / (double)w->count;
     }
     TRY(device_allocate(t->dev, &t->forcing, w->count * sizeof *forcing, forcing));
 out:
@@ -77,8 +81,27 @@ out:
     return rc;
 }
 
-status thermal_open(thermal **out, device *dev, const material_record *material,
-                    size_t material_count, const weather *w, const site *place)
+static status keep_matter(thermal *t, const thermal_matter *m)
+{
+    status rc = STATUS_OK;
+    const size_t bytes = m->count * sizeof *m->material;
+    const size_t layered_bytes = m->count * sizeof *m->layered;
+
+    t->material = malloc(bytes + 1);
+    NEED(t->material, STATUS_MEMORY, "no memory for %zu materials", m->count);
+    memcpy(t->material, m->material, bytes);
+    if (m->layered) {
+        t->layered = malloc(layered_bytes + 1);
+        NEED(t->layered, STATUS_MEMORY, "no memory for %zu materials", m->count);
+        memcpy(t->layered, m->layered, layered_bytes);
+    }
+    TRY(device_allocate(t->dev, &t->materials, bytes, m->material));
+out:
+    return rc;
+}
+
+status thermal_open(thermal **out, device *dev, const thermal_matter *matter, const weather *w,
+                    const site *place)
 {
     status rc = STATUS_OK;
     thermal *t = calloc(1, sizeof *t);
@@ -90,10 +113,7 @@ status thermal_open(thermal **out, device *dev, const material_record *material,
         .step_s = w->interval_s,
         .time_h = (place->time_s - weather_origin_s(w, place)) / 3600.0 - w->record[0].time_h,
     };
-    t->material = malloc((material_count + 1) * sizeof *material);
-    NEED(t->material, STATUS_MEMORY, "no memory for %zu materials", material_count);
-    memcpy(t->material, material, material_count * sizeof *material);
-    TRY(device_allocate(dev, &t->materials, material_count * sizeof *material, material));
+    TRY(keep_matter(t, matter));
     TRY(upload_forcing(t, w, place));
     *out = t;
     t = NULL;
@@ -107,6 +127,7 @@ void thermal_free(thermal *t)
     if (!t) return;
     device_release(t->forcing);
     device_release(t->materials);
+    free(t->layered);
     free(t->material);
     free(t);
 }
@@ -119,24 +140,59 @@ typedef struct batch {
     uint32_t word_count, slot_count;
 } batch;
 
+/* The ladders of a batch; facets that state a temperature need none. */
+static void fill_layered(const thermal *t, const batch *b, layered_record *out)
+{
+    for (size_t i = 0; i < b->count; i++) {
+        const facet_record *facet = &b->facet[i];
+        const uint32_t m = facet->material;
+        if (facet->stated_temperature_k > 0.0f) {
+            out[i] = (layered_record){.stated_temperature_k = facet->stated_temperature_k};
+            continue;
+        }
+        layered_fill(&out[i], facet, &t->material[m], &t->layered[m], t->mean_air_k);
+    }
+}
+
+/* Puts the facets on the device, as the model's kernel takes them. */
+static status upload_batch(const thermal *t, const batch *b, device_memory *out)
+{
+    status rc = STATUS_OK;
+    layered_record *layered = NULL;
+
+    if (!t->layered) return device_allocate(t->dev, out, b->count * sizeof *b->facet, b->facet);
+    layered = malloc((b->count + 1) * sizeof *layered);
+    NEED(layered, STATUS_MEMORY, "no memory for %zu facets of layers", b->count);
+    fill_layered(t, b, layered);
+    TRY(device_allocate(t->dev, out, b->count * sizeof *layered, layered));
+out:
+    free(layered);
+    return rc;
+}
+
 /* Computes rows of temperatures; the span's steps and weight are set. */
 static status compute(const thermal *t, const batch *b, thermal_span span, float *out_temperature_k)
 {
     status rc = STATUS_OK;
     device_memory facets = NULL, lit = NULL, temperature_k = NULL;
     const size_t bytes = span.row_count * b->count * sizeof(float);
+    const device_shape shape = shape1((b->count + LANES - 1) / LANES);
 
     span.facet_count = (uint)b->count;
     span.sunlit_words = b->word_count;
     span.sunlit_period = b->slot_count;
     span.step_s = (float)t->step_s;
     span.step_count = (uint)t->step_count;
-    TRY(device_allocate(t->dev, &facets, b->count * sizeof *b->facet, b->facet));
+    TRY(upload_batch(t, b, &facets));
     if (b->word_count > 0)
         TRY(device_allocate(t->dev, &lit, b->count * b->word_count * sizeof *b->lit, b->lit));
     TRY(device_allocate(t->dev, &temperature_k, bytes, NULL));
-    TRY(device_run(t->dev, "thermal", shape1((b->count + LANES - 1) / LANES), ARG(span),
-                   ARG(facets), ARG(t->materials), ARG(t->forcing), ARG(lit), ARG(temperature_k)));
+    if (t->layered)
+        TRY(device_run(t->dev, "layered", shape, ARG(span), ARG(facets), ARG(t->forcing), ARG(lit),
+                       ARG(temperature_k)));
+    else
+        TRY(device_run(t->dev, "thermal", shape, ARG(span), ARG(facets), ARG(t->materials),
+                       ARG(t->forcing), ARG(lit), ARG(temperature_k)));
     TRY(device_download(t->dev, temperature_k, 0, bytes, out_temperature_k));
 out:
     device_release(temperature_k);

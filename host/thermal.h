@@ -1,21 +1,29 @@
-/* Thermal: temperatures from the weather history, a reconstruction of what THERM does. Thesis 2.2;
- * equations in kernels/thermal.h. Facets and pixels are computed alike: a pixel is a facet with its
- * own history of sun and shadow (Figures 3-8, 3-9). */
+/* Thermal: temperatures from the weather history: a reconstruction of what THERM does (thesis 2.2,
+ * kernels/thermal.h), or facets of several layers (kernels/layered.h). Facets and pixels are computed
+ * alike: a pixel is a facet with its own history of sun and shadow (Figures 3-8, 3-9). */
 #ifndef THERMAL_H
 #define THERMAL_H
 
 #include "../kernels/records.h"
 #include "device.h"
+#include "layered.h"
 #include "site.h"
 #include "weather.h"
 
 typedef struct thermal thermal;
 
-/* Turns the weather into what acts on a surface. The last full day of the history is the day of the
- * site's time. The device must outlive it.
- *   material   shape (material_count): those that facets name */
-status thermal_open(thermal **out, device *dev, const material_record *material,
-                    size_t material_count, const weather *w, const site *place);
+/* The materials that facets name. */
+typedef struct thermal_matter {
+    const material_record *material; /* shape (count) */
+    const layered_matter *layered;   /* shape (count); NULL: as THERM does it */
+    size_t count;
+} thermal_matter;
+
+/* Turns the weather into what acts on a surface: wind as 9 + 1.2 V W m-2 K-1, for layered facets as
+ * 5.7 + 3.8 V (McAdams). The last full day of the history is the day of the site's time. The device
+ * must outlive it. */
+status thermal_open(thermal **out, device *dev, const thermal_matter *matter, const weather *w,
+                    const site *place);
 void thermal_free(thermal *t);
 
 /* What to compute temperatures of. */

@@ -69,31 +69,24 @@ typedef struct thermal_flux {
 
 /* Fills one lane. */
 static inline void thermal_set_body(thermal_body *body, int lane, facet_record facet,
-                                    material_record material)
+                                    material_record matter)
 {
-    const float twice = 2.0f * fabs(material.exposed_area);
-    const uint slab = material.exposed_area < 0.0f && facet.thickness_m > 0.0f &&
-                      material.conductivity_w_m_k > 0.0f;
+    const float twice = 2.0f * fabs(matter.exposed_area);
+    const uint slab =
+        matter.exposed_area < 0.0f && facet.thickness_m > 0.0f && matter.conductivity_w_m_k > 0.0f;
 
     for (int i = 0; i < 3; i++) THERMAL_SET(body, normal[i], lane, facet.normal[i]);
     THERMAL_SET(body, two_sided, lane, (float)facet.two_sided);
     THERMAL_SET(body, slab, lane, (float)slab);
     THERMAL_SET(body, front, lane, fmin(1.0f, twice));
     THERMAL_SET(body, back, lane, fmax(0.0f, twice - 1.0f));
-    THERMAL_SET(body, absorptance, lane, material.solar_absorptance);
-    THERMAL_SET(body, emissivity, lane, material.thermal_emissivity);
+    THERMAL_SET(body, absorptance, lane, matter.solar_absorptance);
+    THERMAL_SET(body, emissivity, lane, matter.thermal_emissivity);
     THERMAL_SET(body, power_w_m2, lane, facet.power_w_m2);
     THERMAL_SET(body, capacity_j_m2_k, lane,
-                material.density_kg_m3 * material.specific_heat_j_kg_k * facet.thickness_m);
+                matter.density_kg_m3 * matter.specific_heat_j_kg_k * facet.thickness_m);
     THERMAL_SET(body, conductance_w_m2_k, lane,
-                slab ? material.conductivity_w_m_k / facet.thickness_m : 0.0f);
-}
-
-static inline lanes thermal_black_w_m2(lanes temperature_k)
-{
-    const lanes square = temperature_k * temperature_k;
-
-    return STEFAN_BOLTZMANN * square * square;
+                slab ? matter.conductivity_w_m_k / facet.thickness_m : 0.0f);
 }
 
 /* lit: 1 where the sun reaches the facet, 0 in shadow. */
