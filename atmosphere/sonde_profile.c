@@ -9,9 +9,9 @@
 #include <string.h>
 
 #define ZERO_C_K 273.15
-#define MODEL_GAP_M 1000.0    /* between the sonde's last level and the model's first */
-#define SMALL_DEVIATION_K .02 /* below which a level adds nothing */
-#define DEW_POINT_SHARE .3    /* of a dew point's deviation, against a temperature's */
+#define MODEL_GAP_M 1000.0 /* between the sonde's last level and the model's first */
+#define GAP_K_PER_KM .05   /* what a wide gap counts as, where the lines are straight */
+#define DEW_POINT_SHARE .3 /* of a dew point's deviation, against a temperature's */
 
 /* Altitudes of LOWTRAN's models from which a profile is continued. */
 static const double model_km[] = {5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18,
@@ -103,18 +103,21 @@ static double deviation(const sonde *s, size_t low, size_t i, size_t high)
     const sonde line = {2, (sonde_level[]){s->level[low], s->level[high]}};
     const sonde_level straight = sonde_at(&line, s->level[i].altitude_m);
     const double dew = fabs(straight.dew_point_k - s->level[i].dew_point_k);
+    const double gap_m = fmin(s->level[i].altitude_m - s->level[low].altitude_m,
+                              s->level[high].altitude_m - s->level[i].altitude_m);
 
     return fabs(straight.temperature_k - s->level[i].temperature_k) +
-           (isnan(dew) ? 0.0 : DEW_POINT_SHARE * dew);
+           GAP_K_PER_KM * gap_m / 1000.0 + (isnan(dew) ? 0.0 : DEW_POINT_SHARE * dew);
 }
 
-/* Keeps up to `limit` levels: the ends, then always the one that lies farthest off the lines. */
+/* Keeps `limit` levels: the ends, then always the one that lies farthest off the lines. */
 static void thin(sonde *s, size_t limit)
 {
     size_t kept[LOWTRAN_LEVELS] = {0, s->count - 1}, count = 2;
 
-    while (count < limit && count < s->count) {
-        double largest = SMALL_DEVIATION_K;
+    if (s->count <= limit) return;
+    while (count < limit) {
+        double largest = -1.0;
         size_t best = 0, behind = 0;
         for (size_t k = 0; k + 1 < count; k++)
             for (size_t i = kept[k] + 1; i < kept[k + 1]; i++) {
@@ -124,7 +127,6 @@ static void thin(sonde *s, size_t limit)
                 best = i;
                 behind = k + 1;
             }
-        if (!best) break;
         memmove(&kept[behind + 1], &kept[behind], (count - behind) * sizeof *kept);
         kept[behind] = best;
         count++;

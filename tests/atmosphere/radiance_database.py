@@ -1,5 +1,7 @@
 """Reads a .rad of any number of paths and directions, in its own units."""
 
+import json
+
 import numpy
 
 
@@ -37,3 +39,23 @@ def sky_array(database):
     zeniths = sorted({key[0] for key in database["sky"]})
     azimuths = sorted({key[1] for key in database["sky"]})
     return numpy.array([[database["sky"][z, a] for a in azimuths] for z in zeniths])
+
+
+def read_container(path):
+    """The grid, integrated and directional sky of a .radc, W m-2 sr-1 um-1."""
+    data = open(path, "rb").read()
+    magic, rest = data.split(b"\n", 1)
+    assert magic == b"RADSIG ATMOSPHERE 1"
+    end = rest.index(b"\n}\n") + 3
+    out = json.loads(rest[:end])
+    numbers = numpy.frombuffer(rest[end:], "<f4").astype(float)
+    n, m = out["point_count"], out["path_count"]
+    first = 2 * n + m + 3 * m * n
+    sky = out["zenith_count"] * out["azimuth_count"] * n
+    out["wavenumber"] = out["wavenumber_max_cm1"] - out["wavenumber_step_cm1"] * numpy.arange(n)
+    out["integrated"] = numbers[first : first + 2 * n].reshape(2, n).T
+    shape = (out["zenith_count"], out["azimuth_count"], n)
+    directions = numbers[first + 2 * n : first + 2 * n + 2 * sky].reshape(2, *shape)
+    out["sky"] = numpy.moveaxis(directions, 0, -1)
+    assert len(numbers) == first + 2 * n + 2 * sky + 2 * out["level_count"]
+    return out

@@ -68,7 +68,7 @@ static void a_container_gives_back_what_was_written(void **state)
                     1e-7 * a->sky_emitted_direction[i]); /* float32 */
     for (int i = 0; i < a->path_count * a->point_count; i++)
         assert_near(b->tau2[i], a->tau2[i], 1e-7);
-    assert_near(b->level_temperature_k[0], 294.2, 1e-5);
+    assert_near(b->level_temperature_k[0], 294.2, 2e-5); /* half a float32 step */
     atmosphere_free(a);
     atmosphere_free(b);
 }
