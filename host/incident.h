@@ -29,7 +29,7 @@ typedef struct incident_pixels {
 } incident_pixels;
 
 /* Computes the radiance.
- *   out   float, shape (pixel_count, sample_count) */
+ *   out   float, shape (pixel_count, 2, sample_count): of the sky, of facets and ground */
 status incident_run(const incident *in, const incident_pixels *pixels, device_memory out);
 
 #endif

@@ -269,7 +269,7 @@ const render_stage *render_stages(const render *r, size_t *out_count)
 uint32_t render_tile_limit(const render *r)
 {
     const uint64_t words = shape_factor_cell_count(r->grid) + 64u +
-                           (r->around ? r->frame.sample_count : 0u) +
+                           (r->around ? 2u * r->frame.sample_count : 0u) +
                            (uint64_t)r->s->band_count * BAND_PLANES;
     const uint64_t limit = ((uint64_t)TILE_BYTES / (words * sizeof(float))) & ~(uint64_t)63;
 
@@ -286,7 +286,7 @@ typedef struct tile {
     uint32_t first, count;
     shape_factor_points points;
     device_memory lit, history, temperature_k, background, background_hit, background_lit;
-    device_memory incident; /* exact mode: spectra, shape (count, samples) */
+    device_memory incident; /* exact mode: spectra, shape (count, 2, samples) */
     device_memory truth_planes, band_planes;
 } tile;
 
@@ -307,7 +307,8 @@ static status open_tile(tile *t, const render *r, uint32_t first, uint32_t count
     TRY(device_allocate(r->dev, &t->background_hit, n * sizeof(hit_record), NULL));
     TRY(device_allocate(r->dev, &t->background_lit, n * sizeof(float), NULL));
     if (has_incident(r))
-        TRY(device_allocate(r->dev, &t->incident, n * r->frame.sample_count * sizeof(float), NULL));
+        TRY(device_allocate(r->dev, &t->incident, n * 2 * r->frame.sample_count * sizeof(float),
+                            NULL));
     TRY(device_allocate(r->dev, &t->truth_planes, n * (TRUTH_PLANES + SUN_PLANES) * sizeof(float),
                         NULL));
     TRY(device_allocate(r->dev, &t->band_planes, n * r->s->band_count * BAND_PLANES * sizeof(float),
@@ -355,13 +356,21 @@ out:
     return rc;
 }
 
-static status colour_tile(const render *r, const tile *t)
+static bool wants_parts(const render *r, float *const *values)
+{
+    for (size_t i = 0; i < r->plane_count; i++)
+        if (r->planes[i].is_part && values[i]) return true;
+    return false;
+}
+
+static status colour_tile(const render *r, const tile *t, float *const *values)
 {
     status rc = STATUS_OK;
     radiometry_record frame = r->frame;
 
     frame.first_pixel = t->first;
     frame.pixel_count = t->count;
+    frame.wants_parts = wants_parts(r, values);
     TRY(device_run(r->dev, "truth", shape1(t->count), ARG(frame), ARG(r->camera), ARG(r->facets),
                    ARG(r->facet_ids), ARG(r->materials), ARG(t->temperature_k), ARG(t->points.hit),
                    ARG(t->background), ARG(t->lit), ARG(t->background_lit), ARG(t->truth_planes)));
@@ -399,7 +408,7 @@ status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float 
     else
         TRY(temperature_of_pixels(r->warmth, r->rays, t.count, t.points.hit, TRUTH_PLANES,
                                   t.history, t.temperature_k, t.truth_planes));
-    TRY(colour_tile(r, &t));
+    TRY(colour_tile(r, &t, values));
     for (size_t i = 0; i < r->plane_count; i++) {
         const render_plane *p = &r->planes[i];
         const device_memory from = p->is_of_band ? t.band_planes : t.truth_planes;

@@ -39,7 +39,7 @@ static bool is_wanted(const writing *w, const render_plane *p)
 {
     if (p->is_radiance) return true;
     if (w->options->planes) return is_listed(w->options->planes, p->name);
-    return !p->is_of_band || w->s->band_count <= RENDER_OUTPUT_BANDS;
+    return !p->is_of_band || (!p->is_part && w->s->band_count <= RENDER_OUTPUT_BANDS);
 }
 
 static status check_names(const writing *w)

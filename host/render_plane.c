@@ -8,6 +8,8 @@ typedef struct plane_kind {
     bool categorical;
 } plane_kind;
 
+enum { SHAPE_FACTOR = 8 }; /* its unit is its reading */
+
 /* As truth.cl and sun_times.cl write them. */
 static const plane_kind truth_kinds[TRUTH_PLANES + SUN_PLANES] = {
     {"material", "number", true},
@@ -25,11 +27,21 @@ static const plane_kind truth_kinds[TRUTH_PLANES + SUN_PLANES] = {
     {"minutes_since_sun_change", "min", false},
 };
 
+static const char radiance_unit[] = "W m-2 sr-1";
+
 /* As radiometry.cl writes them. */
 static const plane_kind band_kinds[BAND_PLANES] = {
-    {"radiance_%s", "W m-2 sr-1", false},      {"counts_%s", "counts", false},
-    {"apparent_temperature_%s_c", "C", false}, {"emissivity_%s", "1", false},
+    {"radiance_%s", radiance_unit, false},
+    {"counts_%s", "counts", false},
+    {"apparent_temperature_%s_c", "C", false},
+    {"emissivity_%s", "1", false},
     {"background_emissivity_%s", "1", false},
+    {"emitted_%s", radiance_unit, false},
+    {"reflected_sun_%s", radiance_unit, false},
+    {"reflected_sky_%s", radiance_unit, false},
+    {"reflected_background_%s", radiance_unit, false},
+    {"path_%s", radiance_unit, false},
+    {"transmission_%s", "1", false},
 };
 
 static render_plane truth_plane(const scene *s, uint32_t kind)
@@ -38,7 +50,7 @@ static render_plane truth_plane(const scene *s, uint32_t kind)
     render_plane p = {.source = kind, .plane = {.unit = k->unit, .categorical = k->categorical}};
 
     snprintf(p.name, sizeof p.name, "%s", k->name);
-    if (s->thesis && k->unit == truth_kinds[8].unit) p.plane.unit = "thesis eq. 2.4.2-6";
+    if (s->thesis && kind == SHAPE_FACTOR) p.plane.unit = "thesis eq. 2.4.2-6";
     return p;
 }
 
@@ -49,14 +61,15 @@ static render_plane band_plane(const scene *s, uint32_t index, uint32_t kind, do
     render_plane p = {.source = index * BAND_PLANES + kind,
                       .is_of_band = true,
                       .is_radiance = kind == 0,
+                      .is_part = kind >= BAND_PARTS,
                       .plane = {.unit = k->unit}};
 
     snprintf(p.name, sizeof p.name, k->name, s->bands[index].name);
     if (p.is_radiance) {
         p.plane.wavelength_um = centre_um;
         p.plane.fwhm_um = width_um;
-        if (s->bands[index].is_mean) p.plane.unit = "W m-2 sr-1 um-1";
     }
+    if (s->bands[index].is_mean && k->unit == radiance_unit) p.plane.unit = "W m-2 sr-1 um-1";
     return p;
 }
 

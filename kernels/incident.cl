@@ -154,7 +154,8 @@ static void write_sky(const float *weights, radiometry_record frame, global cons
  * cell: (cell_count, 4), met: (cell_count, pixel_count), see hemisphere.cl; dome: (dome_count, 8)
  * facets, temperature_k, facet_background: per facet, the ground's behind the real ones
  * hit, background, background_lit: per pixel; the last two are read for mirrors
- * spectra, emissivity: as radiometry.cl; out: (pixel_count, sample_count), W m-2 sr-1 um-1 */
+ * spectra, emissivity: as radiometry.cl
+ * out: (pixel_count, 2, sample_count), W m-2 sr-1 um-1: of the sky, and of facets and ground */
 kernel void incident(const radiometry_record frame, const camera_record camera,
                      const uint cell_count, const uint dome_count, global const float *cell,
                      global const float *dome, global const facet_record *facets,
@@ -174,7 +175,8 @@ kernel void incident(const radiometry_record frame, const camera_record camera,
     const uint kind = pixel_interaction(materials[facets[at.facet].material], mirrored);
     const uint rays = kind == INTERACTION_DIFFUSE ? cell_count : 0u;
     const diffuse_view view = look_around(at.normal, rays, cell, met + pixel, frame.pixel_count);
-    global float *row = out + (size_t)pixel * frame.sample_count;
+    global float *from_sky = out + (size_t)pixel * 2u * frame.sample_count;
+    global float *from_facets = from_sky + frame.sample_count;
     float weights[INCIDENT_DIRECTIONS], direction[3];
     incident_facet seen[ROUND];
     uint count = 0;
@@ -195,7 +197,8 @@ kernel void incident(const radiometry_record frame, const camera_record camera,
             seen[count++] =
                 see_facet(from, frame, mirrored.facet, 1.0f, background_lit[pixel], direction);
     }
-    write_sky(weights, frame, spectra, row);
+    write_sky(weights, frame, spectra, from_sky);
+    for (uint k = 0; k < frame.sample_count; k++) from_facets[k] = 0.0f;
     for (uint c = 0; c < rays; c++) {
         const uint word = met[(size_t)c * frame.pixel_count + pixel];
         if (word == RECORD_NONE) continue;
@@ -204,8 +207,8 @@ kernel void incident(const radiometry_record frame, const camera_record camera,
                                   weight * (direction[2] > 0.0f ? view.above : view.below),
                                   word & HEMISPHERE_LIT ? 1.0f : 0.0f, direction);
         if (count < ROUND) continue;
-        add_facets(seen, count, frame, spectra, emissivity, row);
+        add_facets(seen, count, frame, spectra, emissivity, from_facets);
         count = 0;
     }
-    if (count > 0) add_facets(seen, count, frame, spectra, emissivity, row);
+    if (count > 0) add_facets(seen, count, frame, spectra, emissivity, from_facets);
 }

@@ -6,7 +6,7 @@
 typedef struct spectra_tables {
     global const float *rows;       /* shape (rows, sample_count): SPECTRA_... of records.h */
     global const float *emissivity; /* shape (rows, sample_count) */
-    global const float *incident;   /* of this pixel: shape (sample_count); NULL: thesis mode */
+    global const float *incident;   /* of this pixel: shape (2, sample_count); NULL: thesis mode */
 } spectra_tables;
 
 static spectrum load_row(spectra_tables tables, radiometry_record frame, uint row, uint block)
@@ -19,43 +19,106 @@ static global const float *sky_rows(spectra_tables tables, radiometry_record fra
     return tables.rows + (size_t)(SPECTRA_PATHS + 2u * frame.path_count) * frame.sample_count;
 }
 
-/* Radiance at the sensor of one block of samples; adds to the emissivity sums. */
-static spectrum block_radiance(const pixel_state *pixel, spectra_tables tables,
-                               radiometry_record frame, uint block, spectrum weight,
-                               spectrum *emissivity_sum, spectrum *background_sum)
-{
-    if (pixel->interaction == INTERACTION_MISSED)
-        return sky_radiance(sky_rows(tables, frame), frame, pixel->sky, block);
+/* What reaches a surface from above, each still to be multiplied by (1 - e): the sky by its share,
+ * and what stands around by the rest. */
+typedef struct from_above {
+    spectrum sky, background;
+} from_above;
 
-    const uint row = frame.sample_count;
+/* The mean background's radiance; sets its emissivity. */
+static spectrum mean_background(const pixel_state *pixel, spectra_tables tables,
+                                radiometry_record frame, uint block, spectrum *emissivity)
+{
     const spectrum first = load_row(tables, frame, SPECTRA_PLANCK_FIRST, block);
     const spectrum second = load_row(tables, frame, SPECTRA_PLANCK_SECOND, block);
     const spectrum sun = load_row(tables, frame, SPECTRA_SUN, block);
-    const spectrum emissivity = lookup_spectrum(tables.emissivity, row, pixel->emissivity, block);
-    spectrum sky = (spectrum)0.0f, background = (spectrum)0.0f;
 
-    *emissivity_sum += weight * emissivity;
-    if (pixel->shape_factor > 0.0f && !tables.incident)
-        sky = pixel->interaction == INTERACTION_DIFFUSE
-                  ? load_row(tables, frame, SPECTRA_SKY, block)
-                  : sky_radiance(sky_rows(tables, frame), frame, pixel->sky, block);
-    if (pixel->background_temperature_k > 0.0f) {
-        const spectrum e =
-            lookup_spectrum(tables.emissivity, row, pixel->background_emissivity, block);
-        *background_sum += weight * e;
-        background = background_radiance(
-            e, planck_radiance(first, second, pixel->background_temperature_k),
-            sun_on_surface(sun, pixel->background_sunlit, pixel->background_sun_cosine));
+    *emissivity =
+        lookup_spectrum(tables.emissivity, frame.sample_count, pixel->background_emissivity, block);
+    return background_radiance(
+        *emissivity, planck_radiance(first, second, pixel->background_temperature_k),
+        sun_on_surface(sun, pixel->background_sunlit, pixel->background_sun_cosine));
+}
+
+static from_above look_above(const pixel_state *pixel, spectra_tables tables,
+                             radiometry_record frame, uint block, spectrum *background_emissivity)
+{
+    from_above out = {(spectrum)0.0f, (spectrum)0.0f};
+    spectrum background = (spectrum)0.0f;
+
+    if (pixel->background_temperature_k > 0.0f)
+        background = mean_background(pixel, tables, frame, block, background_emissivity);
+    if (tables.incident) {
+        out.sky = spectrum_load(tables.incident, block);
+        out.background = spectrum_load(tables.incident + frame.sample_count, block);
+        return out;
     }
-    const spectrum surface = surface_radiance(
-        emissivity, planck_radiance(first, second, pixel->temperature_k),
-        sun_on_surface(sun, pixel->sunlit, pixel->sun_cosine),
-        tables.incident ? spectrum_load(tables.incident, block)
-                        : radiance_from_above(pixel->shape_factor, sky, background));
+    if (pixel->shape_factor > 0.0f)
+        out.sky = pixel->shape_factor *
+                  (pixel->interaction == INTERACTION_DIFFUSE
+                       ? load_row(tables, frame, SPECTRA_SKY, block)
+                       : sky_radiance(sky_rows(tables, frame), frame, pixel->sky, block));
+    out.background = background * (1.0f - pixel->shape_factor);
+    return out;
+}
+
+/* Sums over the band of one pixel, of a block's samples side by side. */
+typedef struct band_sums {
+    spectrum radiance, emissivity, background_emissivity;
+    spectrum part[6]; /* as the planes from BAND_PARTS on */
+} band_sums;
+
+/* Adds one block of samples of a pixel that met a target. */
+static void add_target(band_sums *sums, const pixel_state *pixel, spectra_tables tables,
+                       radiometry_record frame, uint block, spectrum weight)
+{
+    const uint row = frame.sample_count;
+    const spectrum black_body = planck_radiance(
+        load_row(tables, frame, SPECTRA_PLANCK_FIRST, block),
+        load_row(tables, frame, SPECTRA_PLANCK_SECOND, block), pixel->temperature_k);
+    const spectrum sun = sun_on_surface(load_row(tables, frame, SPECTRA_SUN, block), pixel->sunlit,
+                                        pixel->sun_cosine);
+    const spectrum emissivity = lookup_spectrum(tables.emissivity, row, pixel->emissivity, block);
     global const float *paths = tables.rows + (size_t)SPECTRA_PATHS * row;
-    return sensor_radiance(
-        surface, lookup_spectrum(paths, row, pixel->path, block),
-        lookup_spectrum(paths + (size_t)frame.path_count * row, row, pixel->path, block));
+    const spectrum tau2 = lookup_spectrum(paths, row, pixel->path, block);
+    const spectrum path =
+        lookup_spectrum(paths + (size_t)frame.path_count * row, row, pixel->path, block);
+    spectrum behind = (spectrum)0.0f;
+    const from_above above = look_above(pixel, tables, frame, block, &behind);
+
+    sums->radiance += weight * sensor_radiance(surface_radiance(emissivity, black_body, sun,
+                                                                above.sky + above.background),
+                                               tau2, path);
+    sums->emissivity += weight * emissivity;
+    sums->background_emissivity += weight * behind;
+    if (!frame.wants_parts) return;
+    sums->part[0] += weight * tau2 * emitted_radiance(emissivity, black_body);
+    sums->part[1] += weight * tau2 * (1.0f - emissivity) * sun;
+    sums->part[2] += weight * tau2 * (1.0f - emissivity) * above.sky;
+    sums->part[3] += weight * tau2 * (1.0f - emissivity) * above.background;
+    sums->part[4] += weight * path;
+    sums->part[5] += weight * tau2;
+}
+
+/* Sums of a band. A missed ray has the sky of its direction, all of it path. */
+static band_sums sum_band(const pixel_state *pixel, spectra_tables tables, radiometry_record frame,
+                          band_record band)
+{
+    band_sums sums;
+
+    sums.radiance = sums.emissivity = sums.background_emissivity = (spectrum)0.0f;
+    for (uint k = 0; k < 6u; k++) sums.part[k] = (spectrum)0.0f;
+    for (uint k = 0; k < band.sample_count / SPECTRUM_WIDTH; k++) {
+        const uint block = band.first_sample / SPECTRUM_WIDTH + k;
+        const spectrum weight = load_row(tables, frame, SPECTRA_WEIGHT, block);
+        if (pixel->interaction == INTERACTION_MISSED)
+            sums.radiance +=
+                weight * sky_radiance(sky_rows(tables, frame), frame, pixel->sky, block);
+        else
+            add_target(&sums, pixel, tables, frame, block, weight);
+    }
+    if (pixel->interaction == INTERACTION_MISSED) sums.part[4] = sums.radiance;
+    return sums;
 }
 
 static pixel_state pixel_look(radiometry_record frame, camera_record camera, uint pixel,
@@ -88,11 +151,13 @@ static pixel_state pixel_look(radiometry_record frame, camera_record camera, uin
  * facets: per facet, the ground's behind the real ones; materials: material_record
  * temperature_k, hit, background, sunlit, background_sunlit: per pixel
  * spectra: shape (rows, sample_count), see SPECTRA_...; emissivity: shape (rows, sample_count)
- * incident: shape (pixel_count, sample_count), see incident.cl; NULL in thesis mode, which takes
+ * incident: shape (pixel_count, 2, sample_count), see incident.cl; NULL in thesis mode, which takes
  *   the mean background instead
  * bands: band_record; ln_radiance: shape (band_count, BAND_TEMPERATURES)
  * planes: shape (band_count, BAND_PLANES, pixel_count): radiance W m-2 sr-1 (or its mean per um),
- *   counts, apparent temperature C, emissivity, background emissivity; NO_VALUE where there is none */
+ *   counts, apparent temperature C, emissivity, background emissivity; NO_VALUE where there is none;
+ *   where they are wanted, what the radiance is the sum of, at the sensor: emitted by the target,
+ *   reflected of the sun, the sky and the background, path; and mean tau2 */
 kernel void radiometry(const radiometry_record frame, const camera_record camera,
                        global const facet_record *facets, global const material_record *materials,
                        global const float *temperature_k, global const hit_record *hit,
@@ -106,33 +171,29 @@ kernel void radiometry(const radiometry_record frame, const camera_record camera
     if (pixel >= frame.pixel_count) return;
 
     const spectra_tables tables = {
-        spectra, emissivity, frame.thesis ? 0 : incident + (size_t)pixel * frame.sample_count};
+        spectra, emissivity, frame.thesis ? 0 : incident + (size_t)pixel * 2u * frame.sample_count};
     const pixel_state state =
         pixel_look(frame, camera, pixel, hit[pixel], background[pixel], sunlit[pixel],
                    background_sunlit[pixel], facets, materials, temperature_k[pixel]);
     for (uint b = 0; b < frame.band_count; b++) {
         const band_record band = bands[b];
-        spectrum radiance_sum = (spectrum)0.0f, emissivity_sum = (spectrum)0.0f;
-        spectrum background_sum = (spectrum)0.0f;
-
-        for (uint k = 0; k < band.sample_count / SPECTRUM_WIDTH; k++) {
-            const uint block = band.first_sample / SPECTRUM_WIDTH + k;
-            const spectrum weight = load_row(tables, frame, SPECTRA_WEIGHT, block);
-            radiance_sum += weight * block_radiance(&state, tables, frame, block, weight,
-                                                    &emissivity_sum, &background_sum);
-        }
-        const float radiance = spectrum_sum(radiance_sum);
+        const band_sums sums = sum_band(&state, tables, frame, band);
+        const float radiance = spectrum_sum(sums.radiance);
+        const float per_um = 1.0f / band.width_um, scale = band.is_mean ? per_um : 1.0f;
         const float apparent_k =
             band_temperature_find(ln_radiance + b * BAND_TEMPERATURES, radiance);
-        global float *out = planes + (size_t)b * BAND_PLANES * frame.pixel_count + pixel;
-        out[0] = band.is_mean ? radiance / band.width_um : radiance;
-        out[frame.pixel_count] = band.gain * radiance + band.offset;
-        out[2u * frame.pixel_count] = apparent_k > 0.0f ? apparent_k - ZERO_CELSIUS_K : NO_VALUE;
-        out[3u * frame.pixel_count] = state.interaction == INTERACTION_MISSED
-                                          ? NO_VALUE
-                                          : spectrum_sum(emissivity_sum) / band.width_um;
-        out[4u * frame.pixel_count] = state.background_temperature_k > 0.0f
-                                          ? spectrum_sum(background_sum) / band.width_um
-                                          : NO_VALUE;
+        const size_t plane = frame.pixel_count;
+        global float *out = planes + (size_t)b * BAND_PLANES * plane + pixel;
+        out[0] = radiance * scale;
+        out[plane] = band.gain * radiance + band.offset;
+        out[2u * plane] = apparent_k > 0.0f ? apparent_k - ZERO_CELSIUS_K : NO_VALUE;
+        out[3u * plane] = state.interaction == INTERACTION_MISSED
+                              ? NO_VALUE
+                              : spectrum_sum(sums.emissivity) * per_um;
+        out[4u * plane] = state.background_temperature_k > 0.0f
+                              ? spectrum_sum(sums.background_emissivity) * per_um
+                              : NO_VALUE;
+        for (uint k = 0; k < 6u && frame.wants_parts; k++)
+            out[(BAND_PARTS + k) * plane] = spectrum_sum(sums.part[k]) * (k == 5u ? per_um : scale);
     }
 }

@@ -136,9 +136,11 @@ typedef struct radiometry_record {
     float path_zenith_step_deg;
     uint zenith_count, azimuth_count; /* directions of the sky */
     float zenith_step_deg, azimuth_step_deg;
-    float sun[3]; /* unit vector towards the sun */
+    float sun[3];     /* unit vector towards the sun */
+    uint wants_parts; /* 1: the planes of the radiance's parts are written too */
+    uint unused[3];
 } radiometry_record;
-RECORD_SIZE(radiometry_record, 64);
+RECORD_SIZE(radiometry_record, 80);
 
 /* Rows of the spectra, each of sample_count floats; behind them stand path_count rows of tau2,
  * path_count rows of path radiance, and zenith_count x azimuth_count rows of sky radiance. */
@@ -166,7 +168,9 @@ RECORD_SIZE(band_record, 32);
 #define BAND_HIGHEST_K 20000.0f
 
 /* Planes that the radiometry writes per band, and those that it writes once. */
-#define BAND_PLANES 5u /* radiance, counts, apparent temperature, emissivity, background's */
+#define BAND_PLANES 11u
+#define BAND_PARTS                                                                                 \
+    5u /* the first of six: emitted, of the sun, the sky, the background; path, tau2 */
 #define TRUTH_PLANES 11u
 #define SUN_PLANES 2u /* behind those: of the sun's history */
 

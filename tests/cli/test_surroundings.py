@@ -194,3 +194,26 @@ def test_a_tilted_plane_reflects_the_open_sky(program, database, tmp_path, tilt_
     reflected = expected - np.sum(0.5 * (look_up(path)[1:] + look_up(path)[:-1]) * np.diff(um))
     assert got.planes["radiance_lwir"] == pytest.approx(expected, abs=2e-3 * reflected)
     assert got.planes["interaction"] == pytest.approx(1)
+
+
+def test_parts_of_the_radiance_are_their_closed_forms(program, radiance, tmp_path):
+    """A grey plane under sky and sun through a path that halves: each part on its own."""
+    names = ["emitted", "reflected_sun", "reflected_sky", "reflected_background", "path"]
+    site = {"latitude_deg": 0.0, "longitude_deg": 0.0, "time": "1992-03-20T12:00:00+00:00"}
+    zenith = np.radians(float(program.run(
+        "sun", "--site=0,0", "--time", site["time"]).stdout.splitlines()[1].split(",")[1]))
+    got = program.render(
+        tmp_path, "--planes", ",".join(f"{n}_lwir" for n in names) + ",transmission_lwir",
+        material=[{"name": "wall", "emissivity": 0.7, "temperature_k": 310.0}], site=site,
+        atmosphere=sky(program, sky_radiance_w_m2_sr_um=4.0, sun_irradiance_w_m2_um=30.0,
+                       transmission=0.5, path_temperature_k=280.0))
+
+    expected = {"emitted": 0.5 * 0.7 * radiance.band_planck(*LWIR, 310),
+                "reflected_sun": 0.5 * 0.3 * 6 * 30 / np.pi * np.cos(zenith),
+                "reflected_sky": 0.5 * 0.3 * 6 * 4, "reflected_background": 0,
+                "path": 0.5 * radiance.band_planck(*LWIR, 280)}
+    for name in names:
+        assert got.planes[f"{name}_lwir"] == pytest.approx(expected[name], rel=BAND, abs=1e-6)
+    assert got.planes["transmission_lwir"] == pytest.approx(0.5, rel=1e-6)
+    parts = sum(got.planes[f"{n}_lwir"].astype(float) for n in names)
+    assert parts == pytest.approx(got.planes["radiance_lwir"].astype(float), rel=1e-5)

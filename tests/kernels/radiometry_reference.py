@@ -77,6 +77,7 @@ class Reference:
         case, hit, b = self.case, self.case.hit[pixel], self.case.background[pixel]
         ray, share = self.ray(pixel), float(b["shape_factor"])
         if hit["facet"] == NONE:
+            self.parts = [0, 0, 0, 0, self.sky(ray), 0]
             return MISSED, self.sky(ray), None, None
         material = case.materials[case.facets["material"][hit["facet"]]]
         normal = hit["normal"].astype(np.float64)
@@ -90,13 +91,28 @@ class Reference:
         behind, e_b = (0.0, None) if b["facet"] == NONE else self.background(pixel)
         cosine = max(0.0, normal @ self.frame["sun"].astype(np.float64))
         sun = self.rows[records.SUN] / np.pi * float(case.sunlit[pixel]) * cosine
-        above = share * sky + (1 - share) * behind
+        above = share * sky, (1 - share) * behind
         if not self.frame["thesis"]:  # exact mode takes what incident.cl made
             above = case.incident[pixel].astype(np.float64)
-        leaving = e * planck(self.wavelength_um, float(case.pixel_k[pixel])) + (sun + above) * (1 - e)
         zenith = (angle_deg(-ray[2]) - self.frame["path_zenith_first_deg"])
         place = zenith / self.frame["path_zenith_step_deg"]
-        return kind, leaving * between(self.tau2, place) + between(self.path, place), e, e_b
+        tau2 = between(self.tau2, place)
+        self.parts = [
+            tau2 * e * planck(self.wavelength_um, float(case.pixel_k[pixel])), tau2 * (1 - e) * sun,
+            tau2 * (1 - e) * above[0], tau2 * (1 - e) * above[1], between(self.path, place), tau2]
+        return kind, sum(self.parts[:5]), e, e_b
+
+    def part_planes(self, pixel):
+        """The parts of the radiance in band, and the mean of tau2: shape (bands, 6)."""
+        self.pixel(pixel)
+        rows = []
+        for band in self.case.bands:
+            at = slice(band["first_sample"], band["first_sample"] + band["sample_count"])
+            w = self.rows[records.WEIGHT][at]
+            sums = [(w * (s[at] if np.ndim(s) else s)).sum() for s in self.parts]
+            scale = 1 / w.sum() if band["is_mean"] else 1
+            rows.append([*(x * scale for x in sums[:5]), sums[5] / w.sum()])
+        return np.array(rows)
 
     def planes(self, pixel):
         """Interaction, and radiance in band, emissivity and background's, each per band."""
@@ -203,4 +219,4 @@ class Case:
         b["normal"] = behind * np.sign(towards)[:, None]
         self.sunlit, self.background_sunlit = random.random((2, n)).astype(np.float32)
         self.pixel_k = random.uniform(240, 340, n).astype(np.float32)
-        self.incident = random.uniform(0.5, 9, (n, len(self.weight))).astype(np.float32)
+        self.incident = random.uniform(0.5, 9, (n, 2, len(self.weight))).astype(np.float32)

@@ -3,7 +3,7 @@ import numpy as np
 
 NONE = 0xFFFFFFFF
 NO_VALUE = -9999.0
-BAND_PLANES, TRUTH_PLANES = 5, 11
+BAND_PLANES, BAND_PARTS, TRUTH_PLANES = 11, 5, 11
 BAND_TEMPERATURES, BAND_LOWEST_K, BAND_HIGHEST_K = 1024, 1.0, 20000.0
 WEIGHT, PLANCK_FIRST, PLANCK_SECOND, SUN, SKY, PATHS = range(6)  # SPECTRA_...
 MISSED, DIFFUSE, SPECULAR_SKY, SPECULAR_BACKGROUND = range(4)  # INTERACTION_...
@@ -35,5 +35,5 @@ BACKGROUND = record("shape_factor mean_temperature_k *material *facet point[3] n
 CAMERA = record("position[3] corner[3] across[3] down[3]")
 RADIOMETRY = record("*columns *first_pixel *pixel_count *band_count *sample_count *thesis"
                     " *path_count path_zenith_first_deg path_zenith_step_deg *zenith_count"
-                    " *azimuth_count zenith_step_deg azimuth_step_deg sun[3]")
+                    " *azimuth_count zenith_step_deg azimuth_step_deg sun[3] *wants_parts *unused[3]")
 BAND = record("*first_sample *sample_count gain offset width_um *is_mean *unused[2]")

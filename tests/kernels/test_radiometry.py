@@ -106,7 +106,23 @@ def test_pixels_do_not_depend_on_tiles(opencl):
     for name in ("hit", "background", "sunlit", "background_sunlit", "pixel_k", "incident"):
         setattr(part, name, getattr(case, name)[37:67])
 
-    assert run(opencl, part).tobytes() == np.ascontiguousarray(whole[:, :, 37:67]).tobytes()
+    used = slice(0, records.BAND_PARTS)  # the parts are not asked for
+    expected = np.ascontiguousarray(whole[:, used, 37:67])
+    assert np.ascontiguousarray(run(opencl, part)[:, used]).tobytes() == expected.tobytes()
+
+
+@pytest.mark.parametrize("options", WIDTHS)
+@pytest.mark.parametrize("thesis", [0, 1], ids=["exact", "thesis"])
+def test_parts_of_the_radiance_equal_double_precision_and_add_up(opencl, thesis, options):
+    case = Case(6, 120, thesis)
+    case.frame["wants_parts"] = 1
+    expected = np.array([Reference(case).part_planes(i) for i in range(120)]).transpose(1, 2, 0)
+
+    planes = run(opencl, case, options)
+
+    parts = planes[:, records.BAND_PARTS:]
+    assert parts == pytest.approx(expected, rel=BOUND, abs=1e-12)
+    assert parts[:, :5].sum(1) == pytest.approx(planes[:, 0], rel=2e-6)  # five float32 sums
 
 
 # notes: monochromatic pixels computed by an independent script. The two specular ones of that table
@@ -162,7 +178,7 @@ def black_plane(low_um, high_um, temperature_k):
     case.hit["facet"], case.hit["normal"] = 0, (0, 0, 1)
     case.background["facet"] = records.NONE
     case.pixel_k[:] = temperature_k
-    case.incident = np.full((1, len(case.weight)), 7, np.float32)
+    case.incident = np.full((1, 2, len(case.weight)), 7, np.float32)
     case.emissivity = np.ones((1, len(case.weight)), np.float32)
     flat = np.ones(len(case.weight))
     case.spectra = np.array([
