@@ -222,6 +222,16 @@ $(BUILD)/bench-rays: $(BENCH_RAYS) $(BUILD)/library.a
 
 $(BENCH_RAYS): CPPFLAGS += -Ibench/rays
 
+## bench-view: measure the preview from inside: first picture, pictures a second, exact after rest
+bench-view: deps all
+	@for n in 1 2 3; do build/radsig-view scenes/airport/scene.toml --size 640x480 --bench \
+	    --offscreen build/bench-view.png; done
+
+## screenshots: the pictures of the preview in docs/images
+screenshots: deps all
+	build/radsig-view scenes/airport/scene.toml --size 480x360 --script docs/images/preview.txt \
+	    --offscreen build/preview.png >/dev/null
+
 ## renders: render every scene under scenes/ into out/
 renders: deps all
 	@set -e; for s in $(wildcard scenes/*/scene.toml); do n=$$(basename $$(dirname $$s)); \

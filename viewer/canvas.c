@@ -141,7 +141,10 @@ status canvas_open(canvas **out, const surface *s, double scale)
     open_vertices(c);
     TRY(open_letters(c, CANVAS_TEXT, (int)(CANVAS_TEXT_SIZE * scale + 0.5)));
     TRY(open_letters(c, CANVAS_HEADING, (int)(CANVAS_HEADING_SIZE * scale + 0.5)));
-    for (int i = 0; i < CANVAS_PICTURES; i++) c->picture_texture[i] = open_texture(&c->gl);
+    for (int i = 0; i < CANVAS_PICTURES; i++) {
+        c->picture_texture[i] = open_texture(&c->gl);
+        c->gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    }
     *out = c;
     c = NULL;
 out:

@@ -44,7 +44,7 @@ void canvas_text(canvas *c, double x, double y, canvas_size size, canvas_colour 
 /* Keeps picture `index` for canvas_picture. rgb   shape (rows, columns, 3) */
 void canvas_load_picture(canvas *c, int index, int columns, int rows, const uint8_t *rgb);
 
-/* Draws it into the rectangle; each of its pixels has one colour. */
+/* Draws it into the rectangle: enlarged its pixels stay sharp, reduced they are mixed. */
 void canvas_picture(canvas *c, int index, double x, double y, double width, double height);
 
 /* Draws what is left to draw. Fails with STATUS_DEVICE on any error of OpenGL since canvas_begin. */

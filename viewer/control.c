@@ -1,7 +1,6 @@
 #include "control.h"
 
 #include "image.h"
-#include "inspection.h"
 #include "motion.h"
 #include "overlay.h"
 #include "page.h"
@@ -24,28 +23,28 @@ static const control_key help_lines[] = {
     {"alt + arrows", "move the picked pixel"},
     {"w s a d r f", "fly: forward, back, left, right, up, down"},
     {"+ -", "nearer, farther"},
-    {"page up, page down", "longer, shorter lens"},
-    {"t", "look at the picked pixel's point"},
-    {"home", "the scene's own camera, time and mode"},
+    {"page up, down", "longer, shorter lens"},
+    {"t", "look at the picked point"},
+    {"home", "the scene's camera, time, mode"},
     {", .", "ten minutes earlier, later"},
     {"< >", "an hour earlier, later"},
     {"n N", "next, previous plane"},
     {"1 ... 9", "radiance of a band"},
     {"l", "list of planes: up, down, enter"},
-    {"g", "colours: the plane's own, grey, inferno, blue to red"},
-    {"x", "fix the range of the colours, or find it in each picture"},
-    {"u j", "more, less gain of the colours"},
-    {"i k", "raise, lower the bias of the colours"},
+    {"g", "colours: own, grey, inferno, blue to red"},
+    {"x", "fix the colours' range, or let it follow"},
+    {"u j", "more, less gain"},
+    {"i k", "raise, lower the bias"},
     {"y", "histogram"},
     {"e", "borders of the facets"},
     {"m", "thesis or exact"},
-    {"p", "pin the picture, to compare with it"},
-    {"c", "compare with the pinned one: not, beside it, difference"},
+    {"p", "pin the picture to compare with"},
+    {"c", "alone, beside the pinned one, difference"},
     {"v", "values of the picked pixel"},
-    {"space", "write those values to the standard output"},
-    {"o", "save the view: .adv and the table [camera]"},
-    {"z", "save the page as PNG"},
-    {"Z", "render in full size, in the background"},
+    {"space", "print those values"},
+    {"o", "save the view: .adv, [camera]"},
+    {"z", "save this page (PNG)"},
+    {"Z", "render in full size"},
     {"q", "quit"},
     {"left button", "drag: orbit; click: pick a pixel"},
     {"right button", "drag: pan"},
@@ -167,11 +166,11 @@ static void toggle(preview *p, bool *what)
     p->is_stale = true;
 }
 
-static void write_values(preview *p)
+/* Only exact values leave the preview. */
+static void print_values(preview *p)
 {
-    if (!p->live) return;
-    inspection_write(p, p->picks);
-    preview_note(p, "the values of pixel %d, %d are written", p->pick_column, p->pick_row);
+    p->prints_values = true;
+    p->is_stale = true;
 }
 
 static void fly(preview *p, double forward, double right, double up)
@@ -300,7 +299,7 @@ static void take_character(preview *p, unsigned key)
         if (p->live) toggle_overlay(p, PREVIEW_LIST);
         break;
     case ' ':
-        write_values(p);
+        print_values(p);
         break;
     case 'o':
         saving_view(p);
@@ -410,7 +409,7 @@ static void click(preview *p, double x, double y)
         p->pick_column = column;
         p->pick_row = row;
         p->shows_values = true;
-        write_values(p);
+        print_values(p);
     }
     p->is_stale = true;
 }

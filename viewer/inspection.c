@@ -47,8 +47,8 @@ static void add_names(lines *l, const frame *f, size_t pixel)
         while (i < g->facet_count && (float)g->facet_id[i] != facet) i++;
         if (i < g->facet_count && g->part[i] < g->part_count) {
             const uint32_t part = g->part[i];
-            add(l, "object %s, part %s, facet %.0f", g->object_name[g->part_object[part]],
-                g->part_name[part], (double)facet);
+            add(l, "object %s", g->object_name[g->part_object[part]]);
+            add(l, "part %s, facet %.0f", g->part_name[part], (double)facet);
         }
     } else if (material != IMAGE_NO_DATA) {
         add(l, "the ground beyond the scene");
@@ -135,15 +135,17 @@ void inspection_draw(const preview *p)
         const int wide = canvas_text_width(p->c, CANVAS_TEXT, l.text[i]);
         width = wide > width ? wide : width;
     }
-    canvas_fill(p->c, p->picture.x + pad, p->picture.y + pad, width + 2.0 * pad,
-                l.count * height + pad, paper);
+    /* On the side where the pixel is not. */
+    const double x = p->pick_column > p->wish.columns / 2
+                         ? p->picture.x + pad
+                         : p->picture.x + fmax(pad, p->picture.width - width - 3.0 * pad);
+    canvas_fill(p->c, x, p->picture.y + pad, width + 2.0 * pad, l.count * height + pad, paper);
     for (int i = 0; i < l.count; i++)
-        canvas_text(p->c, p->picture.x + 2.0 * pad, p->picture.y + 1.5 * pad + i * height,
-                    CANVAS_TEXT, ink, l.text[i]);
+        canvas_text(p->c, x + pad, p->picture.y + 1.5 * pad + i * height, CANVAS_TEXT, ink,
+                    l.text[i]);
     if (p->live->of->s->band_count >= SPECTRUM_BANDS)
         draw_spectrum(p, pixel,
-                      (preview_rectangle){p->picture.x + pad,
-                                          p->picture.y + 3.0 * pad + l.count * height,
+                      (preview_rectangle){x, p->picture.y + 3.0 * pad + l.count * height,
                                           PLOT_WIDTH * p->scale, PLOT_HEIGHT * p->scale});
     draw_cross(p);
 }

@@ -13,7 +13,7 @@
 enum { MARGIN = 12, SIDE = 150, TOP = 56, FOOT = 26, LEAST_WIDTH = 560, LEAST_HEIGHT = 300 };
 
 static const canvas_colour ink = {25, 25, 25, 255}, faint = {90, 90, 90, 255},
-                           alarm = {178, 24, 43, 255}, paper = {255, 255, 255, 220};
+                           paper = {255, 255, 255, 220};
 
 static int larger(int a, int b)
 {
@@ -73,9 +73,11 @@ static void draw_title(const preview *p)
     const scene *s = p->live->of->s;
     const render_plane *plane = &p->live->planes[p->plane];
     const sun_position sun = sun_at(p->live->time_s, s->place.latitude_deg, s->place.longitude_deg);
-    snprintf(text, sizeof text, "%s: %s%s [%s], %s", s->name, plane->name,
-             p->difference ? " minus the pinned picture" : "",
-             plane->plane.unit ? plane->plane.unit : "", s->thesis ? "thesis" : "exact");
+    const bool has_unit = plane->plane.unit && !plane->plane.categorical;
+    snprintf(text, sizeof text, "%s: %s%s%s%s%s, %s", s->name, plane->name,
+             p->difference ? " minus the pinned picture" : "", has_unit ? " [" : "",
+             has_unit ? plane->plane.unit : "", has_unit ? "]" : "",
+             s->thesis ? "thesis" : "exact");
     canvas_text(p->c, x, y, CANVAS_HEADING, ink, text);
     site_format_time(p->live->time_s, s->place.utc_offset_min, time);
     snprintf(text, sizeof text, "%s   sun %.1f deg %s the horizon, azimuth %.1f deg   %d x %d%s",
@@ -105,13 +107,35 @@ static void draw_north(const preview *p)
                 y + 0.95 * dy - 0.5 * canvas_line_height(p->c, CANVAS_TEXT), CANVAS_TEXT, ink, "N");
 }
 
-/* Fits a frame into a rectangle, in the middle, its sides in proportion. */
-static void draw_fitting(const preview *p, int index, const frame *f, preview_rectangle to)
+/* Fits a frame into a rectangle, its sides in proportion, with a caption below. */
+static void draw_fitting(const preview *p, int index, const frame *f, preview_rectangle to,
+                         const char *caption)
 {
-    const double factor = fmin(to.width / f->camera.columns, to.height / f->camera.rows);
+    const double text = canvas_line_height(p->c, CANVAS_TEXT), room = to.height - 2.0 * text;
+    const double factor = fmin(to.width / f->camera.columns, room / f->camera.rows);
     const double width = floor(factor * f->camera.columns), height = floor(factor * f->camera.rows);
+    const double y = floor(to.y + 0.5 * (room - height));
 
-    canvas_picture(p->c, index, floor(to.x + 0.5 * (to.width - width)), to.y, width, height);
+    canvas_picture(p->c, index, floor(to.x + 0.5 * (to.width - width)), y, width, height);
+    canvas_text(p->c, to.x + 4.0, y + height, CANVAS_TEXT, ink, caption);
+}
+
+static void draw_beside(const preview *p)
+{
+    const preview_rectangle r = p->picture;
+    const double half = 0.5 * r.width;
+    const value_range range = p->pinned_colours.range;
+    char caption[2 * RENDER_PLANE_NAME_SIZE], time[SITE_TIME_SIZE];
+
+    canvas_fill(p->c, r.x, r.y, r.width, r.height, (canvas_colour){235, 235, 235, 255});
+    site_format_time(p->pinned->time_s, p->pinned->of->s->place.utc_offset_min, time);
+    snprintf(caption, sizeof caption, "pinned: %.5s %s, %.4g to %.4g", time + 11,
+             p->pinned->planes[p->pinned_plane].name, range.min, range.max);
+    draw_fitting(p, 1, p->pinned, (preview_rectangle){r.x, r.y, half - 2.0, r.height}, caption);
+    site_format_time(p->live->time_s, p->live->of->s->place.utc_offset_min, time);
+    snprintf(caption, sizeof caption, "%.5s %s", time + 11, p->live->planes[p->plane].name);
+    draw_fitting(p, 0, p->live, (preview_rectangle){r.x + half + 2.0, r.y, half - 2.0, r.height},
+                 caption);
 }
 
 static void draw_picture(const preview *p)
@@ -121,17 +145,7 @@ static void draw_picture(const preview *p)
     canvas_fill(p->c, r.x - 1.0, r.y - 1.0, r.width + 2.0, r.height + 2.0,
                 (canvas_colour){110, 110, 110, 255});
     if (p->compare == PREVIEW_BESIDE && p->pinned) {
-        const double half = 0.5 * r.width;
-        char caption[2 * RENDER_PLANE_NAME_SIZE];
-        snprintf(caption, sizeof caption, "pinned: %s, %.4g to %.4g",
-                 p->pinned->planes[p->pinned_plane].name, p->pinned_colours.range.min,
-                 p->pinned_colours.range.max);
-        canvas_fill(p->c, r.x, r.y, r.width, r.height, (canvas_colour){235, 235, 235, 255});
-        draw_fitting(p, 1, p->pinned, (preview_rectangle){r.x, r.y, half - 2.0, r.height});
-        draw_fitting(p, 0, p->live,
-                     (preview_rectangle){r.x + half + 2.0, r.y, half - 2.0, r.height});
-        canvas_text(p->c, r.x + 4.0, r.y + r.height - canvas_line_height(p->c, CANVAS_TEXT),
-                    CANVAS_TEXT, ink, caption);
+        draw_beside(p);
         return;
     }
     canvas_picture(p->c, 0, r.x, r.y, r.width, r.height);
@@ -152,7 +166,7 @@ static void draw_foot(const preview *p)
     else
         snprintf(text, sizeof text, "%s %.0f %%   %s", p->state.task ? p->state.task : "",
                  100.0 * p->state.progress, p->note);
-    canvas_text(p->c, x, y, CANVAS_TEXT, p->state.error[0] ? alarm : faint, text);
+    canvas_text(p->c, x, y, CANVAS_TEXT, faint, text);
 }
 
 status page_draw(preview *p)

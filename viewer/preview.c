@@ -1,6 +1,7 @@
 #include "preview.h"
 
 #include "image.h"
+#include "inspection.h"
 #include "page.h"
 
 #include <math.h>
@@ -30,6 +31,7 @@ status preview_open(preview **out, surface *s, shared_scene *of, int columns, in
                     const char *plane, FILE *picks)
 {
     status rc = STATUS_OK;
+    char title[256];
     preview *p = calloc(1, sizeof *p);
 
     NEED(p, STATUS_MEMORY, "no memory for a preview");
@@ -49,6 +51,8 @@ status preview_open(preview **out, surface *s, shared_scene *of, int columns, in
     s->measure(s, &p->width, &p->height, &p->scale);
     TRY(canvas_open(&p->c, s, p->scale));
     page_place(p);
+    snprintf(title, sizeof title, "radsig: %s", of->s->name);
+    s->name(s, title);
     *out = p;
     p = NULL;
 out:
@@ -84,6 +88,7 @@ void preview_ask(preview *p)
 {
     p->wish.camera = p->camera;
     p->wished = session_ask(p->work, &p->wish);
+    p->prints_values = false;
     p->is_stale = true;
 }
 
@@ -219,6 +224,16 @@ static void take_state(preview *p)
     if (!full_render_is_running(p->full)) full_render_tell(p->full, p->note, sizeof p->note);
 }
 
+/* Prints the values that were asked for, if they are those of the wish. */
+static void print_picked(preview *p)
+{
+    if (!p->prints_values || !p->live->is_exact || p->live->wish != p->wished) return;
+    inspection_write(p, p->picks);
+    preview_note(p, "the values of pixel %d, %d are printed", p->pick_column, p->pick_row);
+    p->prints_values = false;
+    p->is_stale = false; /* the note is drawn now */
+}
+
 status preview_step(preview *p, bool *out_drew)
 {
     status rc = STATUS_OK;
@@ -231,6 +246,7 @@ status preview_step(preview *p, bool *out_drew)
     if (p->live) {
         TRY(subtract(p));
         TRY(colour(p));
+        print_picked(p);
     }
     TRY(page_draw(p));
     p->s->show(p->s);

@@ -48,6 +48,7 @@ typedef struct preview {
     bool has_fixed_range;
     preview_compare compare;
     bool shows_histogram, shows_outlines, shows_values;
+    bool prints_values; /* of the picked pixel, once the picture is exact */
     preview_overlay overlay;
     size_t list_at;            /* plane under the list's mark */
     int pick_column, pick_row; /* of the wish's columns and rows */

@@ -1,0 +1,145 @@
+"""The window, driven by keys and pointer like a person's, on a virtual screen."""
+import pathlib
+import shutil
+import subprocess
+import time
+import zlib
+
+import numpy as np
+import pytest
+
+MISSING = [name for name in ("Xvfb", "xdotool") if not shutil.which(name)]
+pytestmark = pytest.mark.skipif(bool(MISSING), reason=f"{' and '.join(MISSING)} missing: make deps")
+
+
+def read_png(path):
+    """Pixels of an 8-bit RGB PNG, shape (rows, columns, 3)."""
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        length, kind = int.from_bytes(data[at:at + 4], "big"), data[at + 4:at + 8]
+        body = data[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            columns, rows = int.from_bytes(body[:4], "big"), int.from_bytes(body[4:8], "big")
+            assert body[8:10] == b"\x08\x02" and body[12] == 0
+        packed += body if kind == b"IDAT" else b""
+        at += 12 + length
+    lines = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(rows, 1 + 3 * columns)
+    out = np.zeros((rows + 1, 3 * (columns + 1)), int)  # with a margin of zeros before and above
+    for row, (kind, *line) in enumerate(lines.tolist()):
+        above, here = out[row].tolist(), out[row + 1].tolist()
+        for i, value in enumerate(line, 3):
+            a, b, c = here[i - 3], above[i], above[i - 3]
+            p = a + b - c
+            near = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+            here[i] = (value + (0, a, b, (a + b) // 2, near)[kind]) & 255
+        out[row + 1] = here
+    return out[1:, 3:].reshape(rows, columns, 3)
+
+
+class Person:
+    """Someone at a window on a screen of its own."""
+
+    def __init__(self, program, scene, folder, size):
+        self.screen = subprocess.Popen(
+            ["Xvfb", "-displayfd", "1", "-screen", "0", "1280x1024x24"], stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL, text=True)
+        self.folder = folder
+        self.environment = {"DISPLAY": ":" + self.screen.stdout.readline().strip(),
+                            "PATH": "/usr/bin:/bin", "HOME": str(folder)}
+        self.program = subprocess.Popen([program, "view", scene, "--size", size], cwd=folder,
+                                        env=self.environment, stdout=subprocess.PIPE,
+                                        stderr=subprocess.PIPE, text=True)
+        self.window = self.do("search", "--sync", "--name", "radsig:").split()[0]
+        self.do("windowfocus", "--sync", self.window)
+
+    def do(self, *words):
+        return subprocess.run(["xdotool", *words], env=self.environment, capture_output=True, text=True,
+                              timeout=60, check=True).stdout
+
+    def press(self, *keys):
+        self.do("key", "--delay", "30", *keys)
+
+    def click(self, x, y):
+        self.do("mousemove", "--window", self.window, str(x), str(y))
+        self.do("click", "1")
+
+    def values(self):
+        """Values by plane that the next pick prints, which waits for the exact picture."""
+        picked = {}
+        while "emissivity_lwir" not in picked:
+            words = self.program.stdout.readline().split()
+            assert words[0] == "pixel", words
+            picked[words[3]] = float(words[4])
+        return picked
+
+    def page(self, number):
+        """The page that `z` saves."""
+        self.press("z")
+        path = self.folder / f"plane-page-{number}.png"
+        for _ in range(200):
+            if path.exists():
+                return path
+            time.sleep(0.05)
+        raise AssertionError(f"{path.name} was not saved")
+
+    def end(self):
+        self.press("q")
+        return self.program.wait(30)
+
+
+@pytest.fixture
+def person(preview, scene, tmp_path):
+    someone = Person(preview.radsig, scene, tmp_path, "480x320")
+    yield someone
+    someone.program.kill()
+    someone.program.wait()
+    someone.screen.terminate()
+    someone.screen.wait()
+
+
+def ink(page):
+    """Dark pixels where the legend's unit stands: right of the picture, above the bar."""
+    pixels = read_png(page)
+    return int((pixels[50:72, -150:].sum(axis=2) < 300).sum())
+
+
+def test_a_person_can_orbit_pick_save_and_quit(preview, scene, person, tmp_path):
+    person.press("space")
+    person.values()
+    first = person.page(1)
+    person.press("Left", "Left", "greater", "space")
+    person.values()
+    orbited = person.page(2)
+    person.press("o")
+    person.click(12 + 240, 56 + 160)  # the picture begins 12 pixels from the left, 56 from the top
+    picked = person.values()
+    person.press("n")
+    other = person.page(3)
+    code = person.end()
+
+    assert code == 0 and person.program.stderr.read() == ""
+    assert len({path.read_bytes() for path in (first, orbited, other)}) == 3
+    assert ink(first) > 50  # letters of 12 pixels: some ten dark pixels each
+    camera = {"view": "plane-view-1.adv", "position_m": None, "target_m": None, "pixels": None,
+              "focal_length_mm": None}
+    preview.write_scene(tmp_path, **{**preview.scene, "camera": camera})
+    rendered = np.frombuffer(preview.render(scene, pathlib.Path(tmp_path / "out"), "--time",
+                                            "1992-06-21T14:20:00-04:00"), "<f4")
+    assert picked["radiance_lwir"] == pytest.approx(rendered.reshape(2, 320, 480)[0, 160, 240], rel=1e-8)
+
+
+def test_a_drag_orbits_and_a_resized_window_has_a_larger_picture(preview, person, tmp_path):
+    person.press("o")
+    person.do("mousemove", "--window", person.window, "200", "200", "mousedown", "1", "mousemove_relative",
+              "50", "0", "mouseup", "1")
+    person.press("o")
+    person.do("windowsize", "--sync", person.window, "900", "700")
+    person.press("o", "space")
+    person.values()
+    code = person.end()
+
+    assert code == 0
+    views = [(tmp_path / f"plane-view-{i}.toml").read_text() for i in (1, 2, 3)]
+    assert views[0] != views[1]
+    assert "pixels = [480, 320]" in views[1]
+    assert "pixels = [726, 618]" in views[2]  # less the margins of 174 and 82 pixels
