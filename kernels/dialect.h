@@ -6,11 +6,14 @@
 #ifdef __OPENCL_C_VERSION__
 
 #pragma OPENCL FP_CONTRACT OFF
+/* Before a loop of few steps: PoCL unrolls none unasked, and what a loop indexes stays in memory. */
+#define UNROLL _Pragma("unroll")
 #define RECORD_SIZE(type, bytes) typedef char type##_size[sizeof(type) == (bytes) ? 1 : -1]
 
 #else
 
 #include <stdint.h>
+#define UNROLL
 #ifdef __cplusplus
 #include <cmath>
 #define RECORD_SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type)

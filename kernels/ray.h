@@ -27,6 +27,9 @@ typedef struct ray_hit {
 
 #define RAY_DONE 0xffffffffu
 
+/* Boxes are entered up to this many times the nearest range. */
+#define RAY_SLACK (1.0f + 9.5367431640625e-7f)
+
 /* A ray made ready. A plane of a box at p is passed at p * reciprocal + near or far. */
 typedef struct ray_frame {
     triangle_shear shear;
@@ -46,7 +49,9 @@ static inline ray_frame ray_frame_of(const ray *r)
     f.origin[1] = r->origin[f.shear.y];
     f.origin[2] = r->origin[f.shear.z];
     f.cull_back = r->cull_back;
+    UNROLL
     for (int k = 0; k < 3; k++) reach = fmax(reach, fabs(r->origin[k]));
+    UNROLL
     for (int k = 0; k < 3; k++) {
         const float d = r->direction[k];
         const float pad = 4.76837158203125e-7f * reach;
@@ -87,6 +92,7 @@ static inline uint ray_enters(const ray_frame *f, global const bvh_node *node, c
 {
     float8 from = 0, to = limit;
 
+    UNROLL
     for (int k = 0; k < 3; k++) {
         global const float *low = node->low[k], *high = node->high[k];
         const float8 a = *(global const float8 *)(f->is_negative[k] ? high : low);
@@ -105,6 +111,7 @@ static inline uint ray_meets(const ray_frame *f, global const bvh_block *block, 
     const triangle_shear s = f->shear;
     float8 x[3], y[3], z[3];
 
+    UNROLL
     for (int v = 0; v < 3; v++) {
         z[v] = *(global const float8 *)block->vertex[v][s.z] - f->origin[2];
         x[v] = (*(global const float8 *)block->vertex[v][s.x] - f->origin[0]) - s.slope_x * z[v];
@@ -175,7 +182,7 @@ static inline void ray_visit_leaf(const ray_frame *f, global const bvh_block *bl
 /* How far boxes are entered where the nearest range is `range`. */
 static inline float ray_reach(const float limit, const float range)
 {
-    return fmin(limit, range) * (1.0f + 9.5367431640625e-7f);
+    return fmin(limit, range) * RAY_SLACK;
 }
 
 /* Looks for nearer triangles below a child word. */
@@ -261,16 +268,19 @@ static inline hit_record ray_record(global const bvh_block *blocks, const ray *r
     float vertex[3][3], weight[3], range, along = 0;
 
     if (hit.facet == RECORD_NONE) return record;
-    for (int v = 0; v < 3; v++)
-        for (int k = 0; k < 3; k++)
-            vertex[v][k] = blocks[hit.triangle / 8].vertex[v][k][hit.triangle % 8];
+    UNROLL
+    for (int v = 0; v < 3; v++) UNROLL
+    for (int k = 0; k < 3; k++)
+        vertex[v][k] = blocks[hit.triangle / 8].vertex[v][k][hit.triangle % 8];
     triangle_meet(vertex, r->origin, &shear, &range, weight);
     triangle_normal(vertex, record.normal);
+    UNROLL
     for (int k = 0; k < 3; k++) {
         record.point[k] =
             (weight[0] * vertex[0][k] + weight[1] * vertex[1][k]) + weight[2] * vertex[2][k];
         along += record.normal[k] * r->direction[k];
     }
+    UNROLL
     for (int k = 0; k < 3 && along > 0; k++) record.normal[k] = -record.normal[k];
     return record;
 }
@@ -282,6 +292,7 @@ static inline ray ray_leaving(const world_record *world, const float point[3],
 {
     ray r = {.limit = MAXFLOAT, .cull_back = world->cull_back};
 
+    UNROLL
     for (int k = 0; k < 3; k++) {
         r.origin[k] = point[k] + world->offset_m * normal[k];
         r.direction[k] = direction[k];
@@ -298,6 +309,7 @@ static inline uint ray_meet_ground(const world_record *world, const ray *r, hit_
     if (world->ground_facet == RECORD_NONE || down <= 1e-6f) return 0;
     record->range_m = fmax((r->origin[2] - world->ground_z_m) / down, 0.0f);
     record->facet = world->ground_facet;
+    UNROLL
     for (int k = 0; k < 3; k++) {
         record->point[k] = r->origin[k] + record->range_m * r->direction[k];
         record->normal[k] = k == 2;

@@ -103,6 +103,7 @@ static inline void ray_lanes_set_bound(ray_lanes *f, const int k, const float16 
 
     b->reciprocal[0] = ray_lanes_lowest(f->reciprocal[k]);
     b->reciprocal[1] = ray_lanes_highest(f->reciprocal[k]);
+    UNROLL
     for (int i = 0; i < 2; i++) {
         b->near[i] = -(negative ? low : high) * b->reciprocal[i];
         b->far[i] = -(negative ? high : low) * b->reciprocal[i];
@@ -118,6 +119,7 @@ static inline ray_lanes ray_lanes_of(const float origin[3][16], const float dire
     ray_lanes f = {.octant = 0, .coherent = 1, .cull_back = cull_back};
     float16 o[3], d[3], reach = 0;
 
+    UNROLL
     for (int k = 0; k < 3; k++) {
         o[k] = in_use ? vload16(0, origin[k]) : (float16)origin[k][first];
         d[k] = in_use ? vload16(0, direction[k]) : (float16)direction[k][first];
@@ -125,6 +127,7 @@ static inline ray_lanes ray_lanes_of(const float origin[3][16], const float dire
     }
     ray_lanes_set_shear(&f, o, d);
     const float16 pad = 4.76837158203125e-7f * reach;
+    UNROLL
     for (int k = 0; k < 3; k++) {
         const float16 least = copysign((float16)1e-18f, d[k]);
         f.reciprocal[k] = 1.0f / (fabs(d[k]) < 1e-18f ? least : d[k]);
@@ -134,6 +137,7 @@ static inline ray_lanes ray_lanes_of(const float origin[3][16], const float dire
         f.octant |= (negative >> first & 1) << k;
         f.coherent &= negative == 0 || negative == 0xffff;
     }
+    UNROLL
     for (int k = 0; k < 3 && f.coherent; k++)
         ray_lanes_set_bound(&f, k, o[k], ray_lanes_highest(pad));
     return f;
@@ -145,6 +149,7 @@ static inline uint ray_lanes_reach(const ray_lanes *f, global const bvh_node *no
 {
     float8 from = 0, to = limit;
 
+    UNROLL
     for (int k = 0; k < 3; k++) {
         global const float *low = node->low[k], *high = node->high[k];
         const uint negative = f->octant >> k & 1;
@@ -161,20 +166,23 @@ static inline uint ray_lanes_reach(const ray_lanes *f, global const bvh_node *no
     return ray_mask(from <= to);
 }
 
-/* Finds the rays that enter a child before their limits, and where: all bits of a lane. */
+/* Finds the rays that enter a child before their limits, and where: all bits of a lane.
+ *   coherent   of the lanes: a constant, so that each kind has code of its own */
 static inline int16 ray_lanes_enter(const ray_lanes *f, global const bvh_node *node,
-                                    const uint child, const float16 limit, float16 *out_range)
+                                    const uint child, const uint coherent, const float16 limit,
+                                    float16 *out_range)
 {
     float16 from = 0, to = limit;
 
+    UNROLL
     for (int k = 0; k < 3; k++) {
-        const float16 low = node->low[k][child], high = node->high[k][child];
         float16 a, b;
-        if (f->coherent) {
+        if (coherent) {
             const uint negative = f->octant >> k & 1;
-            a = negative ? high : low;
-            b = negative ? low : high;
+            a = (negative ? node->high[k] : node->low[k])[child];
+            b = (negative ? node->low[k] : node->high[k])[child];
         } else {
+            const float16 low = node->low[k][child], high = node->high[k][child];
             const int16 negative = f->reciprocal[k] < 0.0f;
             a = negative ? high : low;
             b = negative ? low : high;
@@ -186,18 +194,21 @@ static inline int16 ray_lanes_enter(const ray_lanes *f, global const bvh_node *n
     return from <= to;
 }
 
-/* Shears the corners of a triangle. */
+/* Shears the corners of a triangle.
+ *   axis   of the lanes: 3 must be a constant, so that each kind has code of its own */
 static inline void ray_lanes_shear(const ray_lanes *f, global const bvh_block *block,
-                                   const uint lane, float16 x[3], float16 y[3], float16 z[3])
+                                   const uint lane, const uint axis, float16 x[3], float16 y[3],
+                                   float16 z[3])
 {
-    const uint axis_x = f->axis == 2 ? 0 : f->axis + 1, axis_y = f->axis == 0 ? 2 : f->axis - 1;
+    const uint axis_x = axis == 2 ? 0 : axis + 1, axis_y = axis == 0 ? 2 : axis - 1;
 
+    UNROLL
     for (int v = 0; v < 3; v++) {
         float16 at[3];
-        if (f->axis < 3) {
+        if (axis < 3) {
             at[0] = block->vertex[v][axis_x][lane];
             at[1] = block->vertex[v][axis_y][lane];
-            at[2] = block->vertex[v][f->axis][lane];
+            at[2] = block->vertex[v][axis][lane];
         } else {
             const float16 east = block->vertex[v][0][lane], north = block->vertex[v][1][lane],
                           up = block->vertex[v][2][lane];
@@ -211,23 +222,29 @@ static inline void ray_lanes_shear(const ray_lanes *f, global const bvh_block *b
     }
 }
 
-/* Finds the rays that meet a triangle up to their limits, and where: all bits of a lane. */
-static inline int16 ray_lanes_meet(const ray_lanes *f, global const bvh_block *block,
-                                   const uint lane, const float16 limit, float16 *out_range)
+/* Edge functions of a triangle; where it is seen from the side that counts, met has all bits of the
+ * lane set. distance / determinant is the range. */
+typedef struct ray_lanes_edges {
+    float16 determinant, distance;
+    int16 met;
+} ray_lanes_edges;
+
+static inline ray_lanes_edges ray_lanes_edges_of(const ray_lanes *f, global const bvh_block *block,
+                                                 const uint lane, const uint axis)
 {
     float16 x[3], y[3], z[3];
+    ray_lanes_edges e;
 
-    ray_lanes_shear(f, block, lane, x, y, z);
+    ray_lanes_shear(f, block, lane, axis, x, y, z);
     const float16 a = x[2] * y[1] - y[2] * x[1];
     const float16 b = x[0] * y[2] - y[0] * x[2];
     const float16 c = x[1] * y[0] - y[1] * x[0];
-    const float16 determinant = (a + b) + c;
-    const float16 range = ((a * z[0] + b * z[1]) + c * z[2]) * f->scale_z / determinant;
     const int16 front = (a >= 0.0f) & (b >= 0.0f) & (c >= 0.0f);
     const int16 back = (a <= 0.0f) & (b <= 0.0f) & (c <= 0.0f);
-    const int16 met = f->cull_back ? (f->reversed ? back : front) : front | back;
-    *out_range = range;
-    return met & (determinant != 0.0f) & (range > 0.0f) & (range <= limit);
+    e.determinant = (a + b) + c;
+    e.distance = ((a * z[0] + b * z[1]) + c * z[2]) * f->scale_z;
+    e.met = (f->cull_back ? (f->reversed ? back : front) : front | back) & (e.determinant != 0.0f);
+    return e;
 }
 
 #endif

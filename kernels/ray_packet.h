@@ -35,6 +35,7 @@ static inline void ray_packet_clear(ray_packet *p, const world_record *world)
 
 static inline void ray_packet_set(ray_packet *p, const uint lane, const ray *r)
 {
+    UNROLL
     for (int k = 0; k < 3; k++) {
         p->origin[k][lane] = r->origin[k];
         p->direction[k][lane] = r->direction[k];
@@ -51,11 +52,11 @@ static inline ray_packet ray_packet_load(const world_record *world, global const
 
     ray_packet_clear(&p, world);
     p.alive = count < RAY_LANES ? (1u << count) - 1 : RAY_LANES == 16 ? 0xffff : 1;
-    for (uint i = 0; i < RAY_LANES; i++)
-        for (uint k = 0; k < 3; k++) {
-            p.origin[k][i] = i < count ? rays[(size_t)k * stride + i] : 0.0f;
-            p.direction[k][i] = i < count ? rays[(size_t)(k + 3) * stride + i] : 1.0f;
-        }
+    for (uint i = 0; i < RAY_LANES; i++) UNROLL
+    for (uint k = 0; k < 3; k++) {
+        p.origin[k][i] = i < count ? rays[(size_t)k * stride + i] : 0.0f;
+        p.direction[k][i] = i < count ? rays[(size_t)(k + 3) * stride + i] : 1.0f;
+    }
     return p;
 }
 
@@ -63,6 +64,7 @@ static inline ray ray_packet_get(const ray_packet *p, const uint lane)
 {
     ray r = {.limit = MAXFLOAT, .cull_back = p->cull_back};
 
+    UNROLL
     for (int k = 0; k < 3; k++) {
         r.origin[k] = p->origin[k][lane];
         r.direction[k] = p->direction[k][lane];
@@ -151,16 +153,17 @@ static inline void ray_packet_closest_single(ray_packet_walk *w, global const bv
 
 /* Looks for nearer triangles in a leaf, for all lanes at once. */
 static inline void ray_packet_closest_leaf(const ray_lanes *f, global const bvh_block *blocks,
-                                           const uint leaf, const int16 active,
+                                           const uint leaf, const uint axis, const int16 active,
                                            ray_packet_nearest *best)
 {
-    const uint first = (leaf & ~BVH_LEAF) >> 4, count = leaf & 15;
+    const uint first = (leaf & ~BVH_LEAF) >> 4, end = first + (leaf & 15);
 
-    for (uint b = first; b < first + count; b++)
+    for (uint b = first; b < end; b++)
         for (uint i = 0; i < 8 && blocks[b].facet[i] != RECORD_NONE; i++) {
+            const ray_lanes_edges e = ray_lanes_edges_of(f, blocks + b, i, axis);
+            const float16 range = e.distance / e.determinant;
             const uint16 facet = blocks[b].facet[i];
-            float16 range;
-            const int16 met = ray_lanes_meet(f, blocks + b, i, best->range, &range) & active;
+            const int16 met = active & e.met & (range > 0.0f) & (range <= best->range);
             const int16 nearer = met & ((range < best->range) | (facet < best->facet));
             best->range = nearer ? range : best->range;
             best->facet = as_uint16(nearer) ? facet : best->facet;
@@ -168,57 +171,119 @@ static inline void ray_packet_closest_leaf(const ray_lanes *f, global const bvh_
         }
 }
 
+/* Tells which lanes meet anything in a leaf: a bit each. A range is above 0 where its two parts have
+ * one sign. */
+static inline uint ray_packet_any_leaf(const ray_lanes *f, global const bvh_block *blocks,
+                                       const uint leaf, const uint axis)
+{
+    const uint first = (leaf & ~BVH_LEAF) >> 4, end = first + (leaf & 15);
+    int16 met = 0;
+
+    for (uint b = first; b < end; b++)
+        for (uint i = 0; i < 8 && blocks[b].facet[i] != RECORD_NONE; i++) {
+            const ray_lanes_edges e = ray_lanes_edges_of(f, blocks + b, i, axis);
+            met |= e.met & (e.distance != 0.0f) & ~(as_int16(e.distance) ^ as_int16(e.determinant));
+        }
+    return ray_lanes_mask(met);
+}
+
+/* What is still to be visited: child words, and where the lanes enter them, nan where they do not. */
+typedef struct ray_packet_stack {
+    float16 entered[RAY_STACK_SIZE];
+    uint word[RAY_STACK_SIZE];
+    uint depth;
+} ray_packet_stack;
+
+/* Puts the children that a lane enters on the stack, the nearest on top. */
+static inline void ray_packet_open(const ray_lanes *f, global const bvh_node *node,
+                                   const uint coherent, const float16 limit,
+                                   ray_packet_stack *stack)
+{
+    const uint order = node->order[f->octant];
+    const uint mask = coherent ? ray_lanes_reach(f, node, MAXFLOAT) : 0xff;
+
+    for (int i = 28; i >= 0; i -= 4) {
+        const uint child = order >> i & 7;
+        float16 range;
+        if (!(mask >> child & 1)) continue;
+        const int16 enters = ray_lanes_enter(f, node, child, coherent, limit, &range);
+        if (ray_lanes_mask(enters) == 0) continue;
+        stack->word[stack->depth] = node->child[child];
+        stack->entered[stack->depth++] = enters ? range : (float16)NAN;
+    }
+}
+
 /* Finds the nearest triangle of each lane. */
 static inline void ray_packet_closest(global const bvh_node *nodes, global const bvh_block *blocks,
                                       const ray_packet *p, ray_packet_hit *out)
 {
     ray_packet_walk w;
-    uint word_of[RAY_STACK_SIZE];
-    float16 entered_of[RAY_STACK_SIZE]; /* nan in lanes that do not enter */
+    ray_packet_stack stack;
     ray_packet_nearest best = {MAXFLOAT, RECORD_NONE, 0};
-    uint depth = 0, word = 0;
+    int16 active = ray_lanes_of_mask(p->alive);
+    uint word = 0;
 
     if (p->alive == 0) return;
     w = ray_packet_start(p);
-    best.range = ray_lanes_of_mask(p->alive) ? (float16)MAXFLOAT : (float16)-1.0f;
-    int16 active = ray_lanes_of_mask(p->alive);
-    float16 limit = best.range * (1.0f + 9.5367431640625e-7f);
-
+    best.range = active ? (float16)MAXFLOAT : (float16)-1.0f;
+    stack.depth = 0;
     for (;;) {
         const uint rays = ray_lanes_mask(active), count = popcount(rays);
-        if (count <= RAY_PACKET_FEW_IN_NODE ||
-            ((word & BVH_LEAF) && count <= RAY_PACKET_FEW_IN_LEAF)) {
+        const uint few = word & BVH_LEAF ? RAY_PACKET_FEW_IN_LEAF : RAY_PACKET_FEW_IN_NODE;
+        const float16 limit = best.range * RAY_SLACK;
+        if (count <= few)
             ray_packet_closest_single(&w, nodes, blocks, word, rays, &best);
-            limit = best.range * (1.0f + 9.5367431640625e-7f);
-        } else if (word & BVH_LEAF) {
-            ray_packet_closest_leaf(&w.lanes, blocks, word, active, &best);
-            limit = best.range * (1.0f + 9.5367431640625e-7f);
-        } else {
-            global const bvh_node *node = nodes + word;
-            uint order = node->order[w.lanes.octant];
-            const uint mask = w.lanes.coherent ? ray_lanes_reach(&w.lanes, node, MAXFLOAT) : 0xff;
-            for (int i = 7; i >= 0; i--) {
-                const uint child = order >> (4 * i) & 7;
-                float16 range;
-                if (!(mask >> child & 1)) continue;
-                const int16 enters = ray_lanes_enter(&w.lanes, node, child, limit, &range);
-                if (ray_lanes_mask(enters) == 0) continue;
-                word_of[depth] = node->child[child];
-                entered_of[depth++] = enters ? range : (float16)NAN;
-            }
-        }
+        else if (word & BVH_LEAF && w.lanes.axis == 3)
+            ray_packet_closest_leaf(&w.lanes, blocks, word, 3, active, &best);
+        else if (word & BVH_LEAF)
+            ray_packet_closest_leaf(&w.lanes, blocks, word, w.lanes.axis % 3, active, &best);
+        else if (w.lanes.coherent)
+            ray_packet_open(&w.lanes, nodes + word, 1, limit, &stack);
+        else
+            ray_packet_open(&w.lanes, nodes + word, 0, limit, &stack);
         do {
-            if (depth == 0) goto done;
-            depth--;
-            active = entered_of[depth] <= limit;
+            if (stack.depth == 0) goto done;
+            active = stack.entered[--stack.depth] <= best.range * RAY_SLACK;
         } while (ray_lanes_mask(active) == 0);
-        word = word_of[depth];
+        word = stack.word[stack.depth];
     }
 done:
     best.range = as_int16(best.facet) == -1 ? (float16)INFINITY : best.range;
     vstore16(best.range, 0, out->range);
     vstore16(best.facet, 0, out->facet);
     vstore16(best.triangle, 0, out->triangle);
+}
+
+/* Puts the children that an active lane enters on the stack, the lanes above the word. */
+static inline uint ray_packet_open_any(const ray_lanes *f, global const bvh_node *node,
+                                       const uint coherent, const uint active, ulong *stack,
+                                       uint depth)
+{
+    uint mask = coherent ? ray_lanes_reach(f, node, MAXFLOAT) : 0xff;
+
+    while (mask) {
+        const uint child = ray_packet_next(&mask);
+        float16 range;
+        const int16 enters = ray_lanes_enter(f, node, child, coherent, MAXFLOAT, &range);
+        const uint lanes = active & ray_lanes_mask(enters);
+        if (lanes) stack[depth++] = (ulong)lanes << 32 | node->child[child];
+    }
+    return depth;
+}
+
+/* Lets single rays look for any triangle below a child word; a bit for each that met one. */
+static inline uint ray_packet_any_single(ray_packet_walk *w, global const bvh_node *nodes,
+                                         global const bvh_block *blocks, const uint word,
+                                         uint active)
+{
+    uint met = 0;
+
+    while (active) {
+        const uint lane = ray_packet_next(&active);
+        const ray_frame *f = ray_packet_frame(w, lane);
+        met |= ray_any_below(f, nodes, blocks, word, MAXFLOAT) << lane;
+    }
+    return met;
 }
 
 /* Tells which lanes meet anything: a bit each. */
@@ -228,43 +293,25 @@ static inline uint ray_packet_any(global const bvh_node *nodes, global const bvh
     ray_packet_walk w;
     ulong stack[RAY_STACK_SIZE];
     uint depth = 0, word = 0, active = p->alive, met = 0;
-    float16 limit;
 
     if (p->alive == 0) return 0;
     w = ray_packet_start(p);
-    limit = ray_lanes_of_mask(p->alive) ? (float16)MAXFLOAT : (float16)-1.0f;
     for (;;) {
         const uint count = popcount(active);
-        if (count <= RAY_PACKET_FEW_IN_NODE ||
-            ((word & BVH_LEAF) && count <= RAY_PACKET_FEW_IN_LEAF)) {
-            while (active) {
-                const uint lane = ray_packet_next(&active);
-                const ray_frame *f = ray_packet_frame(&w, lane);
-                met |= ray_any_below(f, nodes, blocks, word, MAXFLOAT) << lane;
-            }
-        } else if (word & BVH_LEAF) {
-            const uint first = (word & ~BVH_LEAF) >> 4, end = first + (word & 15);
-            for (uint b = first; b < end; b++)
-                for (uint i = 0; i < 8 && blocks[b].facet[i] != RECORD_NONE; i++) {
-                    float16 range;
-                    met |= active &
-                           ray_lanes_mask(ray_lanes_meet(&w.lanes, blocks + b, i, limit, &range));
-                }
-        } else {
-            global const bvh_node *node = nodes + word;
-            uint mask = w.lanes.coherent ? ray_lanes_reach(&w.lanes, node, MAXFLOAT) : 0xff;
-            while (mask) {
-                const uint child = ray_packet_next(&mask);
-                float16 range;
-                const uint enters =
-                    active & ray_lanes_mask(ray_lanes_enter(&w.lanes, node, child, limit, &range));
-                if (enters) stack[depth++] = (ulong)enters << 32 | node->child[child];
-            }
-        }
+        const uint few = word & BVH_LEAF ? RAY_PACKET_FEW_IN_LEAF : RAY_PACKET_FEW_IN_NODE;
+        if (count <= few)
+            met |= ray_packet_any_single(&w, nodes, blocks, word, active);
+        else if (word & BVH_LEAF && w.lanes.axis == 3)
+            met |= active & ray_packet_any_leaf(&w.lanes, blocks, word, 3);
+        else if (word & BVH_LEAF)
+            met |= active & ray_packet_any_leaf(&w.lanes, blocks, word, w.lanes.axis % 3);
+        else if (w.lanes.coherent)
+            depth = ray_packet_open_any(&w.lanes, nodes + word, 1, active, stack, depth);
+        else
+            depth = ray_packet_open_any(&w.lanes, nodes + word, 0, active, stack, depth);
         do {
             if (depth == 0 || met == p->alive) return met;
-            depth--;
-            active = (uint)(stack[depth] >> 32) & ~met;
+            active = (uint)(stack[--depth] >> 32) & ~met;
         } while (active == 0);
         word = (uint)stack[depth];
     }

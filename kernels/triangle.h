@@ -39,6 +39,7 @@ static inline int triangle_meet(const float vertex[3][3], const float origin[3],
 {
     float x[3], y[3], z[3], edge[3], determinant;
 
+    UNROLL
     for (int v = 0; v < 3; v++) {
         z[v] = vertex[v][s->z] - origin[s->z];
         x[v] = (vertex[v][s->x] - origin[s->x]) - s->slope_x * z[v];
@@ -49,6 +50,7 @@ static inline int triangle_meet(const float vertex[3][3], const float origin[3],
     edge[2] = x[1] * y[0] - y[1] * x[0];
     determinant = (edge[0] + edge[1]) + edge[2];
     *out_range = ((edge[0] * z[0] + edge[1] * z[1]) + edge[2] * z[2]) * s->scale_z / determinant;
+    UNROLL
     for (int v = 0; v < 3; v++) out_weight[v] = edge[v] / determinant;
     if (determinant == 0) return 0;
     if (edge[0] >= 0 && edge[1] >= 0 && edge[2] >= 0) return 1;
@@ -60,18 +62,22 @@ static inline void triangle_normal(const float vertex[3][3], float out[3])
 {
     float u[3], v[3], largest = 0, length;
 
+    UNROLL
     for (int k = 0; k < 3; k++) {
         u[k] = vertex[1][k] - vertex[0][k];
         v[k] = vertex[2][k] - vertex[0][k];
     }
+    UNROLL
     for (int k = 0; k < 3; k++) {
         const int a = (k + 1) % 3, b = (k + 2) % 3;
         out[k] = u[a] * v[b] - u[b] * v[a];
         largest = fabs(out[k]) > largest ? fabs(out[k]) : largest;
     }
     /* The square of a small facet's area would underflow. */
+    UNROLL
     for (int k = 0; k < 3; k++) out[k] /= largest;
     length = sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
+    UNROLL
     for (int k = 0; k < 3; k++) out[k] /= length;
 }
 

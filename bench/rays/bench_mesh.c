@@ -27,7 +27,7 @@ static void look(bench_mesh *m, const float eye[3], const float target[3])
 
 static status read_airport(bench_mesh *m)
 {
-    static const float eye[3] = {-1100, -1300, 700}, target[3] = {0, 50, 0};
+    static const float eye[3] = {-260, -40, 90}, target[3] = {-100, 100, 0};
     status rc = STATUS_OK;
     geometry *g = NULL;
     const geometry_instance instance = {
