@@ -40,12 +40,13 @@ static double sky_emissivity(const weather_record *w)
 static forcing_record forcing_of(const weather_record *w, sun_position sun, bool is_layered)
 {
     const double air_k = w->air_temperature_k;
+    const double modelled_w_m2 =
+        sky_emissivity(w) * (double)STEFAN_BOLTZMANN * air_k * air_k * air_k * air_k;
     const double rain_m_s = w->precipitation_type ? w->precipitation_m_s : 0.0;
     double direction[3];
     forcing_record out = {
         .air_temperature_k = (float)air_k,
-        .sky_longwave_w_m2 =
-            (float)(sky_emissivity(w) * (double)STEFAN_BOLTZMANN * air_k * air_k * air_k * air_k),
+        .sky_longwave_w_m2 = (float)(w->longwave_w_m2 > 0.0 ? w->longwave_w_m2 : modelled_w_m2),
         .convection_w_m2_k =
             (float)(is_layered ? 5.7 + 3.8 * w->wind_m_s : 9.0 + 1.2 * w->wind_m_s),
         .direct_w_m2 = sun.zenith_rad < 0.5 * M_PI ? (float)w->direct_w_m2 : 0.0f,

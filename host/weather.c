@@ -3,10 +3,12 @@
 #include "constants.h"
 #include "output_file.h"
 #include "record_file.h"
+#include "weather_table.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define KELVIN ((double)ZERO_CELSIUS_K)
 #define PASCAL_PER_MBAR 100.0
@@ -194,14 +196,29 @@ out:
     return rc;
 }
 
+static status read_table(weather **out, const char *path)
+{
+    status rc = STATUS_OK;
+    weather_table table = {0};
+
+    TRY(weather_table_read(&table, path));
+    *out = table.history;
+    table.history = NULL;
+out:
+    weather_table_free(&table);
+    return rc;
+}
+
 status weather_read(weather **out, const char *path)
 {
     status rc = STATUS_OK;
+    const size_t length = strlen(path);
     record_file *file = NULL;
     weather *w = NULL;
     size_t count;
     double interval_s;
 
+    if (length > 4 && !strcmp(path + length - 4, ".csv")) return read_table(out, path);
     TRY(record_file_open(&file, path));
     TRY(read_heading(file, &count, &interval_s));
     TRY(weather_allocate(&w, count, interval_s));

@@ -26,6 +26,7 @@ typedef struct weather_record {
     int precipitation_type;   /* 0 none */
     double precipitation_m_s; /* depth of water a second */
     double precipitation_temperature_k;
+    double longwave_w_m2; /* from the sky, where it was measured; 0: it follows from the air */
 } weather_record;
 
 /* Records at a regular interval that divides an hour. */
@@ -39,7 +40,8 @@ typedef struct weather {
 status weather_allocate(weather **out, size_t count, double interval_s);
 void weather_free(weather *w);
 
-/* Reads a .wth file; columns may run together. Fails with STATUS_FORMAT where counts, intervals,
+/* Reads a .wth file, or a table (weather_table.h) where the name ends in .csv. Columns of a .wth may
+ * run together. Fails with STATUS_FORMAT where counts, intervals,
  * times or ranges do not hold (docs/file-formats.md). A dew point of exactly -1 is computed from
  * the relative humidity. */
 status weather_read(weather **out, const char *path);
