@@ -16,8 +16,9 @@ double band_look_up(const atmosphere *air, const double *value, double wavenumbe
     return value[low] + (place - low) * (value[low + 1] - value[low]);
 }
 
-static double response_at(const band *b, const atmosphere *air, double wavenumber_cm1)
+static double responds(const band *b, const atmosphere *air, double wavenumber_cm1)
 {
+    if (b->curve) return response_at(b->curve, 1e4 / wavenumber_cm1);
     return b->response ? band_look_up(air, b->response->response, wavenumber_cm1) : 1.0;
 }
 
@@ -74,16 +75,28 @@ static void lay_samples(band_samples *out, const atmosphere *air, double high, d
     if (exact) add_segment(out, from, low, exact);
 }
 
-static void weigh(band_samples *out, const band *b, const atmosphere *air)
+/* What sample i counts: the trapezoid rule, or the integral of the response times the roof that is 1
+ * at the sample and 0 at its neighbours. */
+static double weight_of(const band_samples *s, int i, const band *b, const atmosphere *air,
+                        bool exact)
+{
+    const double at = 1e4 / s->wavenumber_cm1[i];
+    const double before = 1e4 / s->wavenumber_cm1[i > 0 ? i - 1 : i];
+    const double after = 1e4 / s->wavenumber_cm1[i + 1 < s->count ? i + 1 : i];
+
+    if (!exact || !b->curve) return .5 * (after - before) * responds(b, air, s->wavenumber_cm1[i]);
+    return (before < at ? response_integral(b->curve, at, before) : 0.0) +
+           (after > at ? response_integral(b->curve, at, after) : 0.0);
+}
+
+static void weigh(band_samples *out, const band *b, const atmosphere *air, bool exact)
 {
     const double *nu = out->wavenumber_cm1;
     double moment = 0.0;
 
     out->width_um = 0.0;
     for (int i = 0; i < out->count; i++) {
-        const double before = 1e4 / nu[i > 0 ? i - 1 : i];
-        const double after = 1e4 / nu[i + 1 < out->count ? i + 1 : i];
-        out->weight_um[i] = .5 * (after - before) * response_at(b, air, nu[i]);
+        out->weight_um[i] = weight_of(out, i, b, air, exact);
         out->width_um += out->weight_um[i];
         moment += out->weight_um[i] * 1e4 / nu[i];
     }
@@ -105,7 +118,7 @@ status band_sample(band_samples *out, const band *b, const atmosphere *air, bool
     samples.weight_um = malloc((size_t)samples.count * sizeof(double));
     NEED(samples.wavenumber_cm1 && samples.weight_um, STATUS_MEMORY, "no memory for a band");
     lay_samples(&samples, air, high, low, !thesis);
-    weigh(&samples, b, air);
+    weigh(&samples, b, air, !thesis);
     NEED(samples.width_um > 0.0, STATUS_ARGUMENT, "band %s: its response is 0 everywhere", b->name);
     *out = samples;
     samples = (band_samples){0};

@@ -3,16 +3,20 @@
 #define BAND_H
 
 #include "atmosphere.h"
+#include "response.h"
 #include "sensor.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct band {
     char *name;
-    double low_um, high_um; /* response 1 from here to there; unused with a sensor file */
+    double low_um, high_um; /* where it responds; unused with a sensor file */
+    response *curve;        /* from here to there; NULL: 1 */
     sensor *response;       /* one value per database point, linear between; NULL: see above */
     double gain, offset;    /* counts = gain x W m-2 sr-1 + offset */
     bool is_mean;           /* the cube holds radiance in band over the band's width */
+    uint32_t table;         /* index of the [[band]] that states it */
 } band;
 
 /* The samples of a band: where spectra are evaluated and what each counts. */
@@ -24,8 +28,9 @@ typedef struct band_samples {
 } band_samples;
 
 /* Lays samples over a band. Exact: the band's own edges and every point of the database, and
- * between them steps of at most 2 cm-1, by the trapezoid rule in wavelength. Thesis: the database
- * points in the band.
+ * between them steps of at most 2 cm-1, by the trapezoid rule in wavelength; a curve is integrated
+ * exactly against a spectrum that is linear between the samples. Thesis: the database points in the
+ * band.
  * Fails with STATUS_ARGUMENT where the band leaves the database or holds fewer than two samples. */
 status band_sample(band_samples *out, const band *b, const atmosphere *air, bool thesis);
 void band_samples_free(band_samples *samples);

@@ -140,14 +140,18 @@ static void check_bands(scene_reader *reader)
 {
     const scene *s = reader->s;
     const toml_node *list = toml_node_get(reader->root, "band");
+    uint32_t refused = UINT32_MAX;
 
     for (uint32_t i = 0; s->air && i < s->band_count; i++) {
         const band *b = &s->bands[i];
+        if (b->table == refused) continue; /* one message a table */
         const size_t kept = strlen(status_message());
         band_samples samples = {0};
         if (!b->response && !(b->low_um > 0.0 && b->low_um < b->high_um)) continue;
-        if (band_sample(&samples, b, s->air, s->thesis) != STATUS_OK)
-            scene_fail(reader, toml_node_at(list, i), "%s", status_message() + kept);
+        if (band_sample(&samples, b, s->air, s->thesis) != STATUS_OK) {
+            scene_fail(reader, toml_node_at(list, b->table), "%s", status_message() + kept);
+            refused = b->table;
+        }
         band_samples_free(&samples);
     }
 }
@@ -217,6 +221,7 @@ out:
 static void free_band(band *b)
 {
     free(b->name);
+    response_free(b->curve);
     sensor_free(b->response);
 }
 

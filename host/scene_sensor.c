@@ -1,6 +1,7 @@
 #include "scene_parts.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -50,7 +51,6 @@ static void read_band_edges(scene_table *t, band *b)
 {
     double edges[2];
 
-    scene_table_require(t, "wavelength_um", "[low, high], or sensor = a .sen file");
     if (!scene_table_numbers(t, "wavelength_um", 2, .2, 50.0, edges)) return;
     b->low_um = edges[0];
     b->high_um = edges[1];
@@ -60,35 +60,125 @@ static void read_band_edges(scene_table *t, band *b)
                    toml_node_name(t->node), edges[0], edges[1]);
 }
 
-static void read_band(scene_reader *reader, const toml_node *node, band *b)
+static void read_gaussian(scene_table *t, band *b)
+{
+    double centre_um = 0.0, fwhm_um = 0.0;
+
+    scene_table_require(t, "centre_um", "um, where the response is 1");
+    scene_table_require(t, "fwhm_um", "um, the full width at half maximum");
+    if (!scene_table_number(t, "centre_um", .2, 50.0, &centre_um)) return;
+    if (!scene_table_number(t, "fwhm_um", 1e-4, 20.0, &fwhm_um)) return;
+    if (centre_um - 2.0 * fwhm_um < .2)
+        scene_fail(t->reader, toml_node_get(t->node, "fwhm_um"),
+                   "%s.fwhm_um: found %g, 2 of which below %g um lie below .2 um",
+                   toml_node_name(t->node), fwhm_um, centre_um);
+    else
+        scene_took(t->reader, response_gaussian(&b->curve, centre_um, fwhm_um));
+}
+
+/* Reads the one way in which the table states the response. */
+static void read_response(scene_table *t, band *b)
+{
+    static const char *const ways[] = {"wavelength_um", "response", "centre_um", "sensor"};
+    const char *path;
+    int found = 0;
+
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) found += scene_table_has(t, ways[i]);
+    if (found != 1)
+        scene_fail(t->reader, t->node,
+                   "%s: expected one of wavelength_um = [low, high], response = a .csv file, "
+                   "centre_um with fwhm_um, sensor = a .sen file",
+                   toml_node_name(t->node));
+    if (scene_table_has(t, "centre_um")) read_gaussian(t, b);
+    if (scene_table_file(t, "response", &path))
+        scene_took(t->reader, response_read(&b->curve, path));
+    if (scene_table_file(t, "sensor", &path))
+        scene_took(t->reader, sensor_read(&b->response, path));
+    read_band_edges(t, b);
+    if (b->curve) {
+        b->low_um = b->curve->wavelength_um[0];
+        b->high_um = b->curve->wavelength_um[b->curve->count - 1];
+    }
+}
+
+static const char *read_band_name(scene_table *t)
+{
+    const char *name = "";
+
+    scene_table_require(t, "name", "a name for the band's planes");
+    scene_table_string(t, "name", &name);
+    if (strcspn(name, " ,{}[]/\\\n") != strlen(name))
+        scene_fail(t->reader, t->node,
+                   "%s.name: found \"%s\", expected a word without blanks , { } [ ] /",
+                   toml_node_name(t->node), name);
+    return name;
+}
+
+static long read_count(scene_table *t, const band *b)
+{
+    const scene *s = t->reader->s;
+    const toml_node *node = scene_table_node(t, "count");
+    double count = 1.0;
+
+    if (!scene_table_number(t, "count", 1.0, BAND_LIMIT, &count)) return 1;
+    if (count == floor(count) && s->band_count + count <= BAND_LIMIT && !b->curve && !b->response)
+        return (long)count;
+    scene_fail(t->reader, node,
+               "%s.count: found %g, expected a whole number beside wavelength_um, and at most %d "
+               "bands",
+               toml_node_name(t->node), count, BAND_LIMIT);
+    return 1;
+}
+
+/* Adds a band that owns what `b` owns. */
+static void add_band(scene_reader *reader, const toml_node *node, band b, const char *name)
+{
+    scene *s = reader->s;
+
+    for (uint32_t i = 0; i < s->band_count; i++) {
+        if (strcmp(s->bands[i].name, name)) continue;
+        scene_fail(reader, node, "%s.name: there are two bands \"%s\"", toml_node_name(node), name);
+        break;
+    }
+    b.name = strdup(name);
+    s->bands[s->band_count++] = b;
+}
+
+/* Cuts a band into bands of equal width: NAME_000, NAME_001 .. for 200 of them. */
+static void add_series(scene_reader *reader, const toml_node *node, band b, const char *name,
+                       long count)
+{
+    const double low_um = b.low_um, width_um = b.high_um - b.low_um;
+    const int digits = snprintf(NULL, 0, "%ld", count - 1);
+    char numbered[256];
+
+    for (long i = 0; i < count; i++) {
+        b.low_um = low_um + width_um * (double)i / (double)count;
+        b.high_um = low_um + width_um * (double)(i + 1) / (double)count;
+        snprintf(numbered, sizeof numbered, "%s_%0*ld", name, digits, i);
+        add_band(reader, node, b, numbered);
+    }
+}
+
+static void read_band(scene_reader *reader, const toml_node *node, uint32_t table)
 {
     scene_table t = scene_table_open(reader, node, "band");
-    const char *name = "", *path;
+    band b = {.gain = 1.0, .table = table};
+    const char *name = read_band_name(&t);
 
-    scene_table_require(&t, "name", "a name for the band's planes");
-    scene_table_string(&t, "name", &name);
-    if (strcspn(name, " ,{}[]/\\\n") != strlen(name))
-        scene_fail(reader, node,
-                   "%s.name: found \"%s\", expected a word without blanks , { } [ ] /",
-                   toml_node_name(node), name);
-    for (const band *before = reader->s->bands; before < b; before++)
-        if (!strcmp(before->name, name))
-            scene_fail(reader, node, "%s.name: there are two bands \"%s\"", toml_node_name(node),
-                       name);
-    b->name = strdup(name);
-    b->gain = 1.0;
-    if (scene_table_has(&t, "sensor")) {
-        if (scene_table_file(&t, "sensor", &path) &&
-            scene_took(reader, sensor_read(&b->response, path))) {
-            b->gain = b->response->gain;
-            b->offset = b->response->offset;
-        }
-    } else {
-        read_band_edges(&t, b);
+    read_response(&t, &b);
+    if (b.response) {
+        b.gain = b.response->gain;
+        b.offset = b.response->offset;
     }
-    scene_table_number(&t, "gain", -1e30, 1e30, &b->gain);
-    scene_table_number(&t, "offset", -1e30, 1e30, &b->offset);
+    scene_table_number(&t, "gain", -1e30, 1e30, &b.gain);
+    scene_table_number(&t, "offset", -1e30, 1e30, &b.offset);
+    const long count = read_count(&t, &b);
     scene_table_close(&t);
+    if (count > 1)
+        add_series(reader, node, b, name, count);
+    else
+        add_band(reader, node, b, name);
 }
 
 void scene_read_bands(scene_reader *reader)
@@ -104,15 +194,13 @@ void scene_read_bands(scene_reader *reader)
                    BAND_LIMIT);
         return;
     }
-    s->bands = calloc(count, sizeof *s->bands);
+    s->bands = calloc(BAND_LIMIT, sizeof *s->bands);
     if (!s->bands) {
         scene_fail(reader, list, "no memory for %zu bands", count);
         return;
     }
-    for (size_t i = 0; i < count; i++) {
-        read_band(reader, toml_node_at(list, i), &s->bands[i]);
-        s->band_count++;
-    }
+    for (size_t i = 0; i < count && s->band_count < BAND_LIMIT; i++)
+        read_band(reader, toml_node_at(list, i), (uint32_t)i);
 }
 
 static void read_hemisphere(scene_reader *reader, const toml_node *node)

@@ -230,8 +230,8 @@ static void a_sensor_s_response_is_linear_between_its_points(void **state)
 
 static void a_response_that_does_not_fit_the_database_is_refused(void **state)
 {
-    double response[POINTS] = {0};
-    sensor s = {.count = POINTS - 1, .response = response};
+    double values[POINTS] = {0};
+    sensor s = {.count = POINTS - 1, .response = values};
     const band b = {.name = "sen", .response = &s};
     band_samples samples;
 

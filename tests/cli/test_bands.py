@@ -1,0 +1,90 @@
+"""Responses of bands, and series of them, against quadrature in double."""
+import numpy as np
+import pytest
+
+BAND = 2e-4
+BLACK = [{"name": "wall", "emissivity": 1.0, "temperature_k": 300.0}]
+
+
+def weighted(radiance, points_um, values, temperature_k=300.0):
+    """Planck's law times a table that is linear in wavelength, piece by piece."""
+    values = np.asarray(values, float) / max(values)
+    return sum(radiance.integral(
+        lambda um: radiance.planck(um, temperature_k) * np.interp(um, points_um, values), a, b)
+        for a, b in zip(points_um, points_um[1:]))
+
+
+@pytest.mark.parametrize("heading, scale", [
+    ("wavelength_um", lambda um: um), ("wavelength_nm", lambda um: 1000 * um),
+    ("wavenumber_cm1", lambda um: 1e4 / um)])
+def test_a_tabulated_response_is_integrated(program, radiance, tmp_path, heading, scale):
+    um, values = np.array([7.9, 8.05, 8.4, 11.9, 12.34]), [0, 3, 2.5, 4, 0]
+    rows = "".join(f"{x!r},{v}\n" for x, v in zip(scale(um).tolist(), values))
+    (tmp_path / "filter.csv").write_text(f"# a filter\n{heading},response\n{rows}")
+
+    got = program.render(tmp_path, band=[{"name": "b", "response": "filter.csv"}])
+
+    expected = weighted(radiance, um, values)
+    assert got.planes["radiance_b"] == pytest.approx(expected, rel=BAND)
+    width = float(got.header["fwhm"][0])
+    assert width == pytest.approx(np.trapz(np.array(values) / 4, um), rel=1e-6)
+
+
+# the last one is narrower than the steps of 2 cm-1
+@pytest.mark.parametrize("centre_um, fwhm_um", [(10.0, 1.0), (4.3, 0.02), (12.0, 0.01)])
+def test_a_gaussian_response_is_integrated(program, radiance, tmp_path, centre_um, fwhm_um):
+    got = program.render(tmp_path, band=[{"name": "b", "centre_um": centre_um,
+                                          "fwhm_um": fwhm_um}])
+
+    expected = radiance.integral(
+        lambda um: radiance.planck(um, 300.0) * np.exp(-4 * np.log(2)
+                                                       * ((um - centre_um) / fwhm_um) ** 2),
+        centre_um - 4 * fwhm_um, centre_um + 4 * fwhm_um)
+    assert got.planes["radiance_b"] == pytest.approx(expected, rel=BAND)
+
+
+def test_a_black_plane_appears_at_its_own_temperature_through_a_filter(program, tmp_path):
+    (tmp_path / "filter.csv").write_text("wavelength_um,response\n8,0\n9,1\n12,.2\n")
+
+    got = program.render(tmp_path, band=[{"name": "b", "response": "filter.csv"}])
+
+    assert got.planes["apparent_temperature_b_c"] == pytest.approx(26.85, abs=0.01)
+
+
+def test_a_broken_table_is_refused_with_its_line(program, tmp_path):
+    (tmp_path / "filter.csv").write_text("wavelength_um,response\n8,0\n9;1\n")
+
+    done = program.run("check", program.write_scene(
+        tmp_path, band=[{"name": "b", "response": "filter.csv"}]))
+
+    assert done.returncode == 1
+    assert "filter.csv:3: '9;1' stands there, expected a wavelength and a response" in done.stderr
+
+
+@pytest.mark.parametrize("band, expected", [
+    ({"name": "b"}, "expected one of wavelength_um"),
+    ({"name": "b", "wavelength_um": [8, 9], "centre_um": 8.5, "fwhm_um": 1},
+     "expected one of wavelength_um"),
+    ({"name": "b", "centre_um": 8.5}, "fwhm_um: missing"),
+    ({"name": "b", "centre_um": 1.0, "fwhm_um": 0.5}, "lie below .2 um"),
+    ({"name": "b", "centre_um": 8.5, "fwhm_um": 1, "count": 3}, "beside wavelength_um"),
+    ({"name": "b", "wavelength_um": [8, 9], "count": 2.5}, "whole number beside wavelength_um"),
+    ({"name": "b", "wavelength_um": [8, 9], "count": 5000}, "from 1 to 4096"),
+])
+def test_a_wrong_band_is_refused(program, tmp_path, band, expected):
+    done = program.run("check", program.write_scene(tmp_path, band=[band]))
+
+    assert done.returncode == 1 and expected in done.stderr
+
+
+def test_a_series_is_cut_into_bands_of_equal_width(program, radiance, tmp_path):
+    got = program.render(tmp_path, band=[
+        {"name": "b", "wavelength_um": [8.0, 14.0], "count": 12}])
+
+    edges = np.linspace(8, 14, 13)
+    for i in range(12):
+        expected = radiance.band_planck(edges[i], edges[i + 1], 300.0)
+        assert got.planes[f"radiance_b_{i:02}"] == pytest.approx(expected, rel=BAND)
+    # whose sum is the band as a whole
+    total = sum(got.planes[f"radiance_b_{i:02}"].astype(float) for i in range(12))
+    assert total == pytest.approx(radiance.band_planck(8, 14, 300.0), rel=BAND)
