@@ -14,6 +14,8 @@ static const struct {
     {"make", tool_make, "make the radiance database of a scene"},
     {"deck", tool_deck, "run card decks as they stand"},
     {"cloud", tool_cloud, "write the extinction of a cloud"},
+    {"import", tool_import, "make a database from MODTRAN's own output"},
+    {"show", tool_show, "print what a database holds"},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof *commands };

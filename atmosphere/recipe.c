@@ -1,8 +1,8 @@
 #include "recipe.h"
 
+#include "database_grid.h"
 #include "deck_text.h"
 #include "recipe_deck.h"
-#include "sky_weight.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -141,59 +141,16 @@ out:
     return rc;
 }
 
-static status make_room(atmosphere *a)
-{
-    const size_t n = (size_t)a->point_count, paths = (size_t)a->path_count;
-    const size_t sky = (size_t)(a->zenith_count * a->azimuth_count);
-    double **const arrays[] = {&a->wavelength_um,         &a->wavenumber_cm1,
-                               &a->solar_irradiance,      &a->tau1,
-                               &a->path_range_m,          &a->tau2,
-                               &a->path_emitted,          &a->path_scattered,
-                               &a->sky_emitted,           &a->sky_scattered,
-                               &a->sky_emitted_direction, &a->sky_scattered_direction,
-                               &a->level_altitude_m,      &a->level_temperature_k};
-    const size_t sizes[] = {n,         n, n, n,       paths,   paths * n,      paths * n,
-                            paths * n, n, n, sky * n, sky * n, LOWTRAN_LEVELS, LOWTRAN_LEVELS};
-
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-        *arrays[i] = calloc(sizes[i], sizeof **arrays[i]);
-        if (!*arrays[i]) return status_set(STATUS_MEMORY, "a radiance database");
-    }
-    return STATUS_OK;
-}
-
 static status make_air(recipe *r)
 {
-    status rc = STATUS_OK;
     const atmosphere_plan *plan = &r->plan;
-    atmosphere *a = calloc(1, sizeof *a);
+    const database_grid grid = {plan->sensor_altitude_m,     plan->wavenumber_min_cm1,
+                                plan->wavenumber_max_cm1,    plan->wavenumber_step_cm1,
+                                plan->path_zenith_first_deg, plan->path_zenith_last_deg,
+                                plan->path_zenith_step_deg,  plan->sky_zenith_step_deg,
+                                plan->sky_azimuth_step_deg,  LOWTRAN_LEVELS};
 
-    NEED(a, STATUS_MEMORY, "a radiance database");
-    r->air = a;
-    a->sensor_altitude_m = plan->sensor_altitude_m;
-    a->wavenumber_min_cm1 = plan->wavenumber_min_cm1;
-    a->wavenumber_max_cm1 = plan->wavenumber_max_cm1;
-    a->wavenumber_step_cm1 = plan->wavenumber_step_cm1;
-    a->wavelength_min_um = 1e4 / plan->wavenumber_max_cm1;
-    a->wavelength_max_um = 1e4 / plan->wavenumber_min_cm1;
-    a->point_count = 1 + (int)lround((plan->wavenumber_max_cm1 - plan->wavenumber_min_cm1) /
-                                     plan->wavenumber_step_cm1);
-    a->path_zenith_first_deg = plan->path_zenith_first_deg;
-    a->path_zenith_step_deg = plan->path_zenith_step_deg;
-    a->path_zenith_meaningful_deg = plan->path_zenith_last_deg;
-    a->path_count = 1 + (int)lround((plan->path_zenith_last_deg - plan->path_zenith_first_deg) /
-                                    plan->path_zenith_step_deg);
-    a->zenith_step_deg = plan->sky_zenith_step_deg;
-    a->azimuth_step_deg = plan->sky_azimuth_step_deg;
-    a->zenith_count = 1 + (int)lround(90.0 / a->zenith_step_deg);
-    a->azimuth_count = 1 + (int)lround(360.0 / a->azimuth_step_deg);
-    TRY(make_room(a));
-    for (int i = 0; i < a->point_count; i++) {
-        a->wavenumber_cm1[i] = a->wavenumber_max_cm1 - i * a->wavenumber_step_cm1;
-        a->wavelength_um[i] = 1e4 / a->wavenumber_cm1[i];
-    }
-out:
-    return rc;
+    return database_grid_make(&r->air, &grid);
 }
 
 status recipe_open(recipe **out, const atmosphere_plan *plan, const site *place,
@@ -341,20 +298,10 @@ out:
 status recipe_finish(recipe *r, atmosphere **out)
 {
     status rc = STATUS_OK;
-    atmosphere *a = r->air;
-    double *weight = malloc((size_t)a->zenith_count * sizeof *weight);
 
-    NEED(weight, STATUS_MEMORY, "the integrated sky");
-    sky_weight(a->zenith_count, r->plan.thesis, weight);
-    for (int i = 0; i < a->point_count; i++) {
-        a->sky_emitted[i] = sky_weight_integrate(a->sky_emitted_direction + i, a->point_count,
-                                                 a->zenith_count, a->azimuth_count, weight);
-        a->sky_scattered[i] = sky_weight_integrate(a->sky_scattered_direction + i, a->point_count,
-                                                   a->zenith_count, a->azimuth_count, weight);
-    }
-    *out = a;
+    TRY(database_grid_integrate(r->air, r->plan.thesis));
+    *out = r->air;
     r->air = NULL;
 out:
-    free(weight);
     return rc;
 }

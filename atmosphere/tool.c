@@ -1,5 +1,7 @@
 #include "tool.h"
 
+#include "atmosphere_container.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -30,6 +32,14 @@ int tool_read(int argc, char **argv, int makes, tool_options *out)
     out->first = optind;
     out->count = argc - optind;
     return 0;
+}
+
+status tool_write_database(const atmosphere *air, const char *path)
+{
+    const char *dot = strrchr(path, '.');
+
+    return dot && !strcmp(dot, ".radc") ? atmosphere_container_write(air, path)
+                                        : atmosphere_write(air, path);
 }
 
 static void print_lines(const char *command, const char *label, const char *text)

@@ -3,7 +3,7 @@
 #ifndef TOOL_H
 #define TOOL_H
 
-#include "status.h"
+#include "atmosphere.h"
 
 #include <getopt.h>
 #include <stddef.h>
@@ -11,6 +11,8 @@
 int tool_make(int argc, char **argv);
 int tool_deck(int argc, char **argv);
 int tool_cloud(int argc, char **argv);
+int tool_import(int argc, char **argv);
+int tool_show(int argc, char **argv);
 
 enum { TOOL_USAGE = 2, TOOL_INTERRUPTED = 130, TOOL_HELP = -1 };
 
@@ -25,6 +27,9 @@ typedef struct tool_options {
 /* Reads options. Returns 0, TOOL_HELP, or TOOL_USAGE after it has said what is wrong.
  *   makes   the command knows --time and --keep-decks */
 int tool_read(int argc, char **argv, int makes, tool_options *out);
+
+/* Writes a container where the name ends in .radc, else text. */
+status tool_write_database(const atmosphere *air, const char *path);
 
 /* Prints what was warned about and, unless rc is STATUS_OK, the failure; returns the exit code. */
 int tool_end(const char *command, status rc);

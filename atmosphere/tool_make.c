@@ -1,4 +1,3 @@
-#include "atmosphere_container.h"
 #include "database_header.h"
 #include "output_file.h"
 #include "phase_table.h"
@@ -98,14 +97,6 @@ static void warn_of_aureole(const generation *g, const recipe *r)
                 g->s->path, off / DEGREE);
 }
 
-static status write_database(const atmosphere *air, const char *path)
-{
-    const char *dot = strrchr(path, '.');
-
-    return dot && !strcmp(dot, ".radc") ? atmosphere_container_write(air, path)
-                                        : atmosphere_write(air, path);
-}
-
 static status run(const char *scene_path, const tool_options *options)
 {
     status rc = STATUS_OK;
@@ -126,7 +117,7 @@ static status run(const char *scene_path, const tool_options *options)
     TRY(lowtran_run_decks(recipe_decks(p.r), recipe_names(p.r), recipe_count(p.r), take, &p));
     TRY(recipe_finish(p.r, &air));
     TRY(database_header(&air->header, g, p.r));
-    TRY(write_database(air, options->output));
+    TRY(tool_write_database(air, options->output));
 out:
     atmosphere_free(air);
     recipe_free(p.r);

@@ -1,0 +1,83 @@
+#include "atmosphere.h"
+#include "tool.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const char help[] = "usage: radsig-atmosphere show FILE.rad\n"
+                           "\n"
+                           "Prints what a radiance database, text or container, holds.\n";
+
+/* The mean over the wavelengths, each row standing for its part of the range. */
+static double mean(const atmosphere *a, const double *values)
+{
+    double sum = 0.0, width = 0.0;
+
+    if (a->point_count == 1) return values[0];
+    for (int i = 1; i < a->point_count; i++) {
+        const double step = a->wavelength_um[i] - a->wavelength_um[i - 1];
+        sum += .5 * step * (values[i] + values[i - 1]);
+        width += step;
+    }
+    return sum / width;
+}
+
+static void print_grids(const atmosphere *a)
+{
+    const double last = a->path_zenith_first_deg + (a->path_count - 1) * a->path_zenith_step_deg;
+
+    printf("%.4g to %.4g um, %d points every %g cm-1\n", a->wavelength_min_um, a->wavelength_max_um,
+           a->point_count, a->wavenumber_step_cm1);
+    printf("sensor at %g m, %d paths from zenith angle %g to %g degrees\n", a->sensor_altitude_m,
+           a->path_count, a->path_zenith_first_deg, last);
+    printf("sky every %g x %g degrees\n", a->zenith_step_deg, a->azimuth_step_deg);
+    printf("profile of %d levels, %.2f K at %g m\n", a->level_count, a->level_temperature_k[0],
+           a->level_altitude_m[0]);
+}
+
+static void print_means(const atmosphere *a)
+{
+    const int n = a->point_count;
+
+    puts("means over the wavelengths, W m-2 sr-1 um-1:");
+    printf("  E_S %.4g W m-2 um-1, tau1 %.4f\n", mean(a, a->solar_irradiance), mean(a, a->tau1));
+    for (int path = 0; path<a->path_count; path += a->path_count> 1 ? a->path_count - 1 : 1)
+        printf("  path at %g degrees, %.0f m: tau2 %.4f, emitted %.4g, scattered %.4g\n",
+               a->path_zenith_first_deg + path * a->path_zenith_step_deg, a->path_range_m[path],
+               mean(a, a->tau2 + path * n), mean(a, a->path_emitted + path * n),
+               mean(a, a->path_scattered + path * n));
+    printf("  sky: emitted %.4g, scattered %.4g\n", mean(a, a->sky_emitted),
+           mean(a, a->sky_scattered));
+    for (int zenith = 0; zenith < a->zenith_count; zenith++) {
+        const int first = zenith * a->azimuth_count * n;
+        printf("  sky at %g degrees, north: emitted %.4g, scattered %.4g\n",
+               zenith * a->zenith_step_deg, mean(a, a->sky_emitted_direction + first),
+               mean(a, a->sky_scattered_direction + first));
+    }
+}
+
+static status run(const char *path)
+{
+    status rc = STATUS_OK;
+    atmosphere *a = NULL;
+
+    TRY(atmosphere_read(&a, path));
+    fputs(a->header, stdout);
+    print_grids(a);
+    print_means(a);
+out:
+    atmosphere_free(a);
+    return rc;
+}
+
+int tool_show(int argc, char **argv)
+{
+    tool_options options;
+    const int misuse = tool_read(argc, argv, 0, &options);
+
+    if (misuse == TOOL_HELP) fputs(help, stdout);
+    if (misuse) return misuse == TOOL_HELP ? 0 : misuse;
+    if (options.count != 1) return tool_misuse("show", "needs one radiance database");
+    if (options.output) return tool_misuse("show", "writes no file");
+    return tool_end("show", run(argv[options.first]));
+}
