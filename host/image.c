@@ -116,6 +116,11 @@ float *image_values(image *img, size_t plane)
     return img->value + plane * img->columns * img->rows;
 }
 
+void image_unload(image *img)
+{
+    madvise(img->value, img->bytes, MADV_DONTNEED); /* of a shared map: the file keeps the values */
+}
+
 uint32_t image_columns(const image *img)
 {
     return img->columns;
@@ -142,10 +147,13 @@ status image_finish(image *img, const image_header *header)
     return image_header_write(img->header, img, header);
 }
 
+typedef char exr_name[32];
+
 /* The texts stored in an OpenEXR file. */
 typedef struct exr_texts {
     image_text *text; /* shape (count); owns keys and values */
     size_t count;
+    exr_name *spectral; /* names of spectral channels */
 } exr_texts;
 
 static void exr_texts_free(exr_texts *texts)
@@ -155,6 +163,7 @@ static void exr_texts_free(exr_texts *texts)
         free((char *)texts->text[i].value);
     }
     free(texts->text);
+    free(texts->spectral);
 }
 
 static status add_text(exr_texts *to, const char *prefix, const char *key, const char *value)
@@ -213,6 +222,32 @@ out:
     return rc;
 }
 
+/* Two channels of one name cannot be: .0001 nm are the least between them. */
+static bool is_spectral(const image *img)
+{
+    if (img->plane_count <= IMAGE_SPECTRAL || img->plane[0].wavelength_um <= 0.0) return false;
+    for (size_t p = 1; p < img->plane_count; p++)
+        if (img->plane[p].wavelength_um < img->plane[p - 1].wavelength_um + 2e-7) return false;
+    return true;
+}
+
+static status name_spectral(exr_texts *to, const image *img)
+{
+    status rc = STATUS_OK;
+
+    to->spectral = calloc(img->plane_count, sizeof *to->spectral);
+    NEED(to->spectral, STATUS_MEMORY, "no memory for %zu channels", img->plane_count);
+    for (size_t p = 0; p < img->plane_count; p++) {
+        char *name = to->spectral[p];
+        snprintf(name, sizeof(exr_name), "S0.%010.4fnm", 1e3 * img->plane[p].wavelength_um);
+        name[strlen("S0.00000")] = ',';
+    }
+    TRY(add_text(to, "", "spectralLayoutVersion", "1.0"));
+    TRY(add_text(to, "", "emissiveUnits", img->plane[0].unit));
+out:
+    return rc;
+}
+
 static status add_channels(exr_texts *to, image_channel **out, size_t *out_count, image *const *img,
                            size_t image_count)
 {
@@ -224,10 +259,13 @@ static status add_channels(exr_texts *to, image_channel **out, size_t *out_count
     NEED(channel, STATUS_MEMORY, "no memory for %zu channels", count);
     for (size_t i = 0, c = 0; i < image_count; i++) {
         assert(img[i]->columns == img[0]->columns && img[i]->rows == img[0]->rows);
+        const bool spectral = !to->spectral && is_spectral(img[i]);
+        if (spectral) TRY(name_spectral(to, img[i]));
         for (size_t p = 0; p < img[i]->plane_count; p++, c++) {
             const image_plane *plane = &img[i]->plane[p];
-            channel[c] = (image_channel){plane->name, image_values(img[i], p)};
-            if (plane->unit[0]) TRY(add_text(to, "unit.", plane->name, plane->unit));
+            const char *name = spectral ? to->spectral[p] : plane->name;
+            channel[c] = (image_channel){name, image_values(img[i], p)};
+            if (plane->unit[0]) TRY(add_text(to, "unit.", name, plane->unit));
         }
     }
     *out = channel;

@@ -12,6 +12,9 @@
 /* A pixel without a value; the header's `data ignore value`. */
 #define IMAGE_NO_DATA (-9999.0f)
 
+/* Cubes of more planes are hyperspectral. */
+enum { IMAGE_SPECTRAL = 16 };
+
 typedef struct image_plane {
     const char *name, *unit;       /* `temperature_c`, `C`; unit NULL or "": none */
     double wavelength_um, fwhm_um; /* centre and width of the band; 0: none */
@@ -50,6 +53,10 @@ status image_create(image **out, output_folder *folder, const char *stem, uint32
 /* Shape (rows, columns), row 0 on top; 0 until it is written. */
 float *image_values(image *img, size_t plane);
 
+/* Takes the planes out of the process' memory, as often as wanted: the file has what was written, and
+ * it is read again where it is looked at. */
+void image_unload(image *img);
+
 uint32_t image_columns(const image *img);
 uint32_t image_rows(const image *img);
 size_t image_plane_count(const image *img);
@@ -63,7 +70,9 @@ status image_finish(image *img, const image_header *header);
 void image_free(image *img);
 
 /* Writes the planes of all the images, which have one size, as channels of the OpenEXR file `name`,
- * each under its plane's name alone; its unit is the attribute `unit.<plane>`. */
+ * each under its plane's name alone; its unit is the attribute `unit.<channel>`. A cube of more than
+ * IMAGE_SPECTRAL planes of ascending wavelength has spectral channels instead, `S0.00403,5000nm`
+ * (Fichet and others, JCGT 10(3), 2021). */
 status image_write_exr(output_folder *folder, const char *name, image *const *img,
                        size_t image_count, const image_header *header);
 

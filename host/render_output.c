@@ -146,6 +146,8 @@ static status render_pixels(writing *w)
         }
         TRY(rc);
         done += count;
+        image_unload(w->cube);
+        if (w->truth) image_unload(w->truth);
         show_progress(w, done, all);
     }
 out:

@@ -1,4 +1,8 @@
 """Responses of bands, and series of them, against quadrature in double."""
+import os
+import re
+import subprocess
+
 import numpy as np
 import pytest
 
@@ -88,3 +92,35 @@ def test_a_series_is_cut_into_bands_of_equal_width(program, radiance, tmp_path):
     # whose sum is the band as a whole
     total = sum(got.planes[f"radiance_b_{i:02}"].astype(float) for i in range(12))
     assert total == pytest.approx(radiance.band_planck(8, 14, 300.0), rel=BAND)
+
+
+def test_a_hyperspectral_cube_has_spectral_channels(program, tmp_path):
+    got = program.render(tmp_path, "--exr", band=[
+        {"name": "b", "wavelength_um": [8.0, 14.0], "count": 24}])
+
+    said = subprocess.run(["oiiotool", "--info", "-v", got.folder / "plane.exr"],
+                          capture_output=True, text=True, check=True).stdout
+    names = re.search("channel list: (.*)", said)[1].split(", ")
+    spectral = [name.split()[0] for name in names if name.startswith("S0.")]
+    # the centre of a flat band is its middle; names sort by wavelength
+    assert spectral == [f"S0.{8125 + 250 * i:05},0000nm" for i in range(24)]
+    assert 'spectralLayoutVersion: "1.0"' in said
+
+
+def peak_mib(program, folder, pixels):
+    """The most memory that a render of 100 bands takes; the cube is pixels^2 x 400 bytes."""
+    folder.mkdir()
+    scene = program.write_scene(folder, camera={"pixels": [pixels, pixels]}, band=[
+        {"name": "b", "wavelength_um": [8.0, 14.0], "count": 100}])
+    pid = os.spawnv(os.P_NOWAIT, program.path, ["radsig", "render", str(scene), "-o",
+                                                str(folder / "out")])
+    _, code, usage = os.wait4(pid, 0)
+    assert code == 0
+    return usage.ru_maxrss / 1024
+
+
+def test_memory_does_not_grow_with_the_cube(program, tmp_path):
+    small = peak_mib(program, tmp_path / "small", 192)  # 14 MiB, more than one tile
+    large = peak_mib(program, tmp_path / "large", 352)  # 47 MiB
+
+    assert large < small + 18
