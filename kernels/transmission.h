@@ -1,0 +1,54 @@
+/* Transmission: what transmissive bodies on a ray's way do to radiance. Thesis 2.4.3, eq. 2.4.3-3.
+ * Spectra as in spectrum.h. */
+#ifndef TRANSMISSION_H
+#define TRANSMISSION_H
+
+#include "records.h"
+#include "spectrum.h"
+
+/* Transmissive materials that a scene can have. */
+#define TRANSMISSION_MEDIA 4u
+
+/* The bodies on one way: material by material, in the order of their middles from the origin. */
+typedef struct transmission_path {
+    float length_m[TRANSMISSION_MEDIA]; /* inside, of all bodies of the material; 0: no further */
+    float temperature_k[TRANSMISSION_MEDIA];
+    float air_share[TRANSMISSION_MEDIA]; /* of the air between origin and end, what lies before */
+    uint medium[TRANSMISSION_MEDIA];     /* row of the extinction */
+} transmission_path;
+RECORD_SIZE(transmission_path, 64);
+
+/* The ways of a pixel: sensor to target, target to sun, target to background, background to sun. */
+#define TRANSMISSION_CAMERA 0u
+#define TRANSMISSION_SUN 1u
+#define TRANSMISSION_BACKGROUND 2u
+#define TRANSMISSION_BACKGROUND_SUN 3u
+#define TRANSMISSION_PATHS 4u
+
+/* eq. 2.4.3-3: exp(-beta z) of one material.
+ *   extinction   beta, per m */
+static inline spectrum transmission_of(spectrum extinction, float length_m)
+{
+    return exp(extinction * -length_m);
+}
+
+/* eq. 2.4-1, as printed for tau2c and T_STE: L tau + [1 - tau] B(T). */
+static inline spectrum transmission_through(spectrum radiance, spectrum transmission,
+                                            spectrum black_body)
+{
+    return radiance * transmission + (1.0f - transmission) * black_body;
+}
+
+/* Radiance of the share of the air that has the transmission `of_the_share`, by that of the whole
+ * way; the air's source counts as the same all along.
+ *   path, transmission   of the whole way
+ *   share                of what absorbs, 0..1, for air that is clear */
+static inline spectrum transmission_air(spectrum path, spectrum transmission, spectrum of_the_share,
+                                        float share)
+{
+    const spectrum absorbed = 1.0f - transmission;
+
+    return path * (absorbed > (spectrum)1e-5f ? (1.0f - of_the_share) / absorbed : (spectrum)share);
+}
+
+#endif
