@@ -1,10 +1,14 @@
 #include "temperature.h"
 
+#include "facet_sample.h"
 #include "sun_history.h"
 #include "thermal.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+/* Facets whose points are traced at once: they bound the memory on the device. */
+enum { FACETS_AT_ONCE = 1 << 14 };
 
 struct temperature {
     device *dev;
@@ -49,7 +53,120 @@ out:
     return rc;
 }
 
-static status warm_facets(temperature *t, const scene *s)
+/* What the temperatures of points follow from, without those that meet nothing. */
+typedef struct gathering {
+    size_t count;
+    uint32_t *point;
+    facet_record *facet;
+    uint32_t *lit;
+    float *temperature_k;
+} gathering;
+
+static void gathering_free(gathering *g)
+{
+    free(g->temperature_k);
+    free(g->lit);
+    free(g->facet);
+    free(g->point);
+}
+
+static status gathering_make(gathering *g, const temperature *t, const hit_record *hit,
+                             const uint32_t *lit, size_t count)
+{
+    status rc = STATUS_OK;
+    const uint32_t words = sun_history_words(t->sun);
+
+    g->point = malloc(count * sizeof *g->point);
+    g->facet = malloc(count * sizeof *g->facet);
+    g->lit = malloc(count * words * sizeof *g->lit);
+    g->temperature_k = malloc(count * sizeof *g->temperature_k);
+    NEED(g->point && g->facet && g->lit && g->temperature_k, STATUS_MEMORY,
+         "no memory for %zu points", count);
+    for (size_t i = 0; i < count; i++) {
+        if (hit[i].facet == RECORD_NONE) continue;
+        memcpy(g->lit + g->count * words, lit + i * words, words * sizeof *lit);
+        g->facet[g->count] = t->facet[hit[i].facet];
+        g->point[g->count++] = (uint32_t)i;
+    }
+out:
+    return rc;
+}
+
+/* Temperatures of points with their histories; 0 where there is no facet. Figure 3-8.
+ *   met   what stands in `hit` */
+static status warm_points(const temperature *t, size_t count, const hit_record *met,
+                          device_memory history, float *out_k)
+{
+    status rc = STATUS_OK;
+    const uint32_t words = sun_history_words(t->sun);
+    const size_t bytes = count * words * sizeof(uint32_t);
+    uint32_t *lit = malloc(bytes);
+    gathering g = {0};
+
+    NEED(lit, STATUS_MEMORY, "no memory for %zu points", count);
+    TRY(device_download(t->dev, history, 0, bytes, lit));
+    TRY(gathering_make(&g, t, met, lit, count));
+    const thermal_subject subject = {.facet = g.facet,
+                                     .count = g.count,
+                                     .lit = g.lit,
+                                     .word_count = words,
+                                     .slot_count = sun_history_slots(t->sun)};
+    if (t->model) TRY(thermal_at_time(t->model, &subject, g.temperature_k));
+    memset(out_k, 0, count * sizeof *out_k);
+    for (size_t i = 0; i < g.count; i++)
+        out_k[g.point[i]] = t->model ? g.temperature_k[i] : g.facet[i].stated_temperature_k;
+out:
+    gathering_free(&g);
+    free(lit);
+    return rc;
+}
+
+/* Means over the facets' points of facets first .. first + count - 1. */
+static status warm_some(const temperature *t, const geometry *g, const ray_scene *rays,
+                        uint32_t first, uint32_t count, float *out_k)
+{
+    status rc = STATUS_OK;
+    const uint32_t points = count * FACET_SAMPLES;
+    device_memory hit = NULL, history = NULL;
+    hit_record *at = malloc(points * sizeof *at);
+    float *point_k = malloc(points * sizeof *point_k);
+
+    NEED(at && point_k, STATUS_MEMORY, "no memory for %u points", points);
+    for (uint32_t i = 0; i < count; i++) facet_sample(at + i * FACET_SAMPLES, g, first + i);
+    TRY(device_allocate(t->dev, &hit, points * sizeof *at, at));
+    TRY(device_allocate(t->dev, &history,
+                        (size_t)points * sun_history_words(t->sun) * sizeof(uint32_t), NULL));
+    TRY(sun_history_trace(t->sun, rays, t->facets, points, hit, history));
+    TRY(warm_points(t, points, at, history, point_k));
+    for (uint32_t i = 0; i < count; i++) {
+        float sum = 0.0f;
+        for (int k = 0; k < FACET_SAMPLES; k++) sum += point_k[i * FACET_SAMPLES + (uint32_t)k];
+        out_k[i] = sum / FACET_SAMPLES;
+    }
+out:
+    device_release(history);
+    device_release(hit);
+    free(point_k);
+    free(at);
+    return rc;
+}
+
+/* The facets' temperatures with the sun and shadow on their area; the ground's is always lit. */
+static status warm_area(const temperature *t, const geometry *g, const ray_scene *rays,
+                        float *facet_k)
+{
+    status rc = STATUS_OK;
+
+    for (uint32_t first = 0; first < g->facet_count; first += FACETS_AT_ONCE) {
+        const uint32_t left = g->facet_count - first;
+        TRY(warm_some(t, g, rays, first, left < FACETS_AT_ONCE ? left : FACETS_AT_ONCE,
+                      facet_k + first));
+    }
+out:
+    return rc;
+}
+
+static status warm_facets(temperature *t, const scene *s, const ray_scene *rays)
 {
     status rc = STATUS_OK;
     const thermal_subject all = {.facet = t->facet, .count = t->facet_count};
@@ -59,6 +176,7 @@ static status warm_facets(temperature *t, const scene *s)
     if (s->thermal != SCENE_THERMAL_FIXED && s->history) {
         TRY(open_model(t, s));
         TRY(thermal_at_time(t->model, &all, facet_k));
+        if (!s->thesis) TRY(warm_area(t, s->shape, rays, facet_k));
     } else {
         for (size_t i = 0; i < t->facet_count; i++) facet_k[i] = t->facet[i].stated_temperature_k;
     }
@@ -69,8 +187,8 @@ out:
     return rc;
 }
 
-status temperature_open(temperature **out, device *dev, const scene *s, device_memory facets,
-                        const facet_record *facet, size_t facet_count)
+status temperature_open(temperature **out, device *dev, const scene *s, const ray_scene *rays,
+                        device_memory facets, const facet_record *facet, size_t facet_count)
 {
     status rc = STATUS_OK;
     temperature *t = calloc(1, sizeof *t);
@@ -78,7 +196,7 @@ status temperature_open(temperature **out, device *dev, const scene *s, device_m
     NEED(t, STATUS_MEMORY, "no memory for temperatures");
     *t = (temperature){.dev = dev, .facet = facet, .facet_count = facet_count, .facets = facets};
     TRY(open_sun_history(t, s));
-    TRY(warm_facets(t, s));
+    TRY(warm_facets(t, s, rays));
     *out = t;
     t = NULL;
 out:
@@ -105,74 +223,19 @@ uint32_t temperature_history_words(const temperature *t)
     return sun_history_words(t->sun);
 }
 
-/* What the temperatures of a tile follow from, without the pixels that meet nothing. */
-typedef struct gathering {
-    size_t count;
-    uint32_t *pixel;
-    facet_record *facet;
-    uint32_t *lit;
-    float *temperature_k, *pixel_k;
-} gathering;
-
-static void gathering_free(gathering *g)
-{
-    free(g->pixel_k);
-    free(g->temperature_k);
-    free(g->lit);
-    free(g->facet);
-    free(g->pixel);
-}
-
-static status gathering_make(gathering *g, const temperature *t, const hit_record *hit,
-                             const uint32_t *lit, size_t count)
-{
-    status rc = STATUS_OK;
-    const uint32_t words = sun_history_words(t->sun);
-
-    g->pixel = malloc(count * sizeof *g->pixel);
-    g->facet = malloc(count * sizeof *g->facet);
-    g->lit = malloc(count * words * sizeof *g->lit);
-    g->temperature_k = malloc(count * sizeof *g->temperature_k);
-    g->pixel_k = calloc(count, sizeof *g->pixel_k);
-    NEED(g->pixel && g->facet && g->lit && g->temperature_k && g->pixel_k, STATUS_MEMORY,
-         "no memory for %zu pixels", count);
-    for (size_t i = 0; i < count; i++) {
-        if (hit[i].facet == RECORD_NONE) continue;
-        memcpy(g->lit + g->count * words, lit + i * words, words * sizeof *lit);
-        g->facet[g->count] = t->facet[hit[i].facet];
-        g->pixel[g->count++] = (uint32_t)i;
-    }
-out:
-    return rc;
-}
-
-/* Figure 3-8. */
 static status warm_pixels(const temperature *t, size_t count, device_memory hit,
                           device_memory history, device_memory out_k)
 {
     status rc = STATUS_OK;
-    const uint32_t words = sun_history_words(t->sun);
-    const size_t bytes = count * words * sizeof(uint32_t);
     hit_record *met = malloc(count * sizeof *met);
-    uint32_t *lit = malloc(bytes);
-    gathering g = {0};
+    float *pixel_k = malloc(count * sizeof *pixel_k);
 
-    NEED(met && lit, STATUS_MEMORY, "no memory for %zu pixels", count);
+    NEED(met && pixel_k, STATUS_MEMORY, "no memory for %zu pixels", count);
     TRY(device_download(t->dev, hit, 0, count * sizeof *met, met));
-    TRY(device_download(t->dev, history, 0, bytes, lit));
-    TRY(gathering_make(&g, t, met, lit, count));
-    const thermal_subject subject = {.facet = g.facet,
-                                     .count = g.count,
-                                     .lit = g.lit,
-                                     .word_count = words,
-                                     .slot_count = sun_history_slots(t->sun)};
-    if (t->model) TRY(thermal_at_time(t->model, &subject, g.temperature_k));
-    for (size_t i = 0; i < g.count; i++)
-        g.pixel_k[g.pixel[i]] = t->model ? g.temperature_k[i] : g.facet[i].stated_temperature_k;
-    TRY(device_upload(t->dev, out_k, 0, count * sizeof *g.pixel_k, g.pixel_k));
+    TRY(warm_points(t, count, met, history, pixel_k));
+    TRY(device_upload(t->dev, out_k, 0, count * sizeof *pixel_k, pixel_k));
 out:
-    gathering_free(&g);
-    free(lit);
+    free(pixel_k);
     free(met);
     return rc;
 }

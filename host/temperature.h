@@ -8,11 +8,12 @@
 
 typedef struct temperature temperature;
 
-/* Computes the facets' temperatures: stated ones, or from the weather with the sun on them whenever
- * it shines. Scene, device and memory must outlive it.
+/* Computes the facets' temperatures: stated ones, or from the weather: in thesis mode with the sun
+ * on them whenever it shines, in exact mode the mean over points of their area, each with its own sun
+ * and shadow. Scene, rays, device and memory must outlive it.
  *   facet, facets   facet_record, shape (facet_count), the ground's last, here and on the device */
-status temperature_open(temperature **out, device *dev, const scene *s, device_memory facets,
-                        const facet_record *facet, size_t facet_count);
+status temperature_open(temperature **out, device *dev, const scene *s, const ray_scene *rays,
+                        device_memory facets, const facet_record *facet, size_t facet_count);
 void temperature_free(temperature *t);
 
 /* float, shape (facet_count). */

@@ -110,3 +110,14 @@ def test_layers_of_one_material_are_a_thicker_facet(program, tmp_path):
                 for s in (thick, layered))
 
     assert abs(one - two).max() < 1e-3
+
+
+def test_backgrounds_have_their_own_shade_in_exact_mode_alone(program, tmp_path):
+    """Thesis, Figure 3-9: there the sun is on them at all hours."""
+    thesis, exact = (
+        program.render(tmp_path, "--size", "40x40", **scene(render={
+            "thermal": "therm", "mode": mode})).planes["background_temperature_c"]
+        for mode in ("thesis", "exact"))
+    seen = (thesis > -9000) & (exact > -9000)
+
+    assert seen.any() and (exact <= thesis + 1e-3)[seen].all()
