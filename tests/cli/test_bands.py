@@ -121,6 +121,6 @@ def peak_mib(program, folder, pixels):
 
 def test_memory_does_not_grow_with_the_cube(program, tmp_path):
     small = peak_mib(program, tmp_path / "small", 192)  # 14 MiB, more than one tile
-    large = peak_mib(program, tmp_path / "large", 352)  # 47 MiB
+    large = peak_mib(program, tmp_path / "large", 448)  # 77 MiB
 
-    assert large < small + 18
+    assert large < small + 40  # 63 more in the file; the device takes some 20 more or less
