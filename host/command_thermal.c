@@ -3,6 +3,7 @@
 #include "constants.h"
 #include "material.h"
 #include "thermal.h"
+#include "weather_place.h"
 
 #include <getopt.h>
 #include <math.h>
@@ -174,6 +175,9 @@ static status run(const thermal_request *request)
     NEED(named, STATUS_ARGUMENT, "%s: has no material '%s'", request->materials, request->material);
     record = record_of(named);
     TRY(weather_read(&w, request->weather));
+    const site end = {request->place.latitude_deg, request->place.longitude_deg,
+                      request->place.time_s + 86399.0, request->place.utc_offset_min};
+    weather_place_check(w, &end, request->weather);
     temperature_k = malloc(w->count * sizeof *temperature_k);
     NEED(temperature_k, STATUS_MEMORY, "no memory for %zu temperatures", w->count);
     TRY(compute(&facet, &matter, w, &request->place, temperature_k));

@@ -19,6 +19,7 @@ static const struct {
     {"shape-factor", command_shape_factor, "share of the sky that a point sees"},
     {"thermal", command_thermal, "take one facet through a weather history"},
     {"sun", command_sun, "position of the sun"},
+    {"weather", command_weather, "write the weather of a scene as a .wth"},
     {"validate", command_validate, "compare temperatures with measured ones"},
     {"view", command_view, "start the preview"},
     {"devices", command_devices, "list the OpenCL devices"},

@@ -1,6 +1,7 @@
 #include "atmosphere_plan.h"
 #include "scene_parts.h"
 #include "uniform_atmosphere.h"
+#include "weather_place.h"
 #include "weather_synthesis.h"
 
 #include <math.h>
@@ -77,6 +78,15 @@ static void read_summary(scene_table *t, weather_summary *summary)
         summary->cloud_type = (int)kind;
 }
 
+/* The site may have failed: its place is then no place to compare with. */
+static void read_history(scene_reader *reader, const char *path)
+{
+    scene *s = reader->s;
+
+    if (scene_took(reader, weather_read(&s->history, path)) && reader->failure_count == 0)
+        weather_place_check(s->history, &s->place, path);
+}
+
 void scene_read_weather(scene_reader *reader)
 {
     const toml_node *node = toml_node_get(reader->root, "weather");
@@ -87,8 +97,7 @@ void scene_read_weather(scene_reader *reader)
 
     if (!t.node) return;
     if (scene_table_has(&t, "history")) {
-        if (scene_table_file(&t, "history", &path))
-            scene_took(reader, weather_read(&reader->s->history, path));
+        if (scene_table_file(&t, "history", &path)) read_history(reader, path);
         scene_table_close(&t);
         return;
     }
