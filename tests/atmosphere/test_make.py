@@ -1,6 +1,7 @@
 """radsig-atmosphere make: the radiance database of a scene."""
 
 import pathlib
+import subprocess
 
 import numpy
 import printed
@@ -143,18 +144,28 @@ def test_an_isothermal_path_emits_what_it_absorbs(atmosphere, tmp_path, itype, c
     assert emitted == pytest.approx((1 - tau) * planck(result["wavelength"], 350.0), rel=2e-4)
 
 
-def test_the_clear_sun_is_that_of_astm_g173(atmosphere, tmp_path):
-    # US standard atmosphere, air mass 1.5, 100 km visibility
-    (tmp_path / "0.cdk").write_text(
+def direct_sun(atmosphere, folder, zenith):
+    """Direct normal irradiance from .4 to 4 um, W m-2, US standard atmosphere, 100 km visibility, 4 April."""
+    (folder / "0.cdk").write_text(
         "    6    3    3    0    0    0    0    0    0    0    0    0    1   0.000   0.00\n"
         "    1    0    0    1    0    0   100.000     0.000     0.000     0.000     0.000\n"
-        "     0.000     0.000    48.190   94          0.000    0     0.000\n"
+        f"     0.000     0.000{zenith:10.3f}   94          0.000    0     0.000\n"
         "  2500.000 25000.000    20.000\n    0\n")
-    atmosphere("deck", tmp_path / "0.cdk", "-o", tmp_path / "out.rad")
-    result = radiance_database.read(tmp_path / "out.rad")
-    direct = numpy.trapz(result["sun"] * result["tau1"] * 1e4, result["wavelength"])
+    atmosphere("deck", folder / "0.cdk", "-o", folder / "out.rad")
+    result = radiance_database.read(folder / "out.rad")
+    return numpy.trapz(result["sun"] * result["tau1"] * 1e4, result["wavelength"])
 
-    assert direct == pytest.approx(870.0, rel=0.02)  # ASTM G173-03, direct normal, .4 to 4 um
+
+def test_the_clear_sun_is_that_of_astm_g173(atmosphere, tmp_path):
+    # ASTM G173-03, direct normal, .4 to 4 um, air mass 1.5
+    assert direct_sun(atmosphere, tmp_path, 48.19) == pytest.approx(870.0, rel=0.02)
+
+
+# pvlib 0.16.1, spectrum.spectrl2: 1013.25 hPa, 1.42 cm water, .344 cm ozone, turbidity .10 at 500 nm, day 94
+@pytest.mark.parametrize("zenith, expected", [(20.0, 935.1), (48.19, 867.8), (70.0, 700.7)])
+def test_the_clear_sun_is_that_of_spectrl2(atmosphere, tmp_path, zenith, expected):
+    # spectrl2 is a simple model and its aerosol is another one
+    assert direct_sun(atmosphere, tmp_path, zenith) == pytest.approx(expected, rel=0.15)
 
 
 def test_a_kept_deck_gives_what_the_database_holds(make, atmosphere):
@@ -233,6 +244,15 @@ def test_a_table_of_henyey_greenstein_is_henyey_greenstein(make):
     # LOWTRAN interpolates the table between its angles
     assert table["integrated"][:, 1] == pytest.approx(stated["integrated"][:, 1], rel=0.01)
     assert mie["integrated"][0, 1] != pytest.approx(stated["integrated"][0, 1], rel=0.005)
+
+
+def test_radsig_checks_the_table_too(tmp_path):
+    text = (ROOT / "scenes/airport/scene.toml").read_text()
+    (tmp_path / "scene.toml").write_text(text.replace("sky_step_deg =", "sky_steps_deg ="))
+    done = subprocess.run([ROOT / "build/radsig", "check", tmp_path / "scene.toml"], capture_output=True, text=True)
+
+    assert done.returncode == 1
+    assert "atmosphere.generate.sky_steps_deg: unknown key" in done.stderr
 
 
 @pytest.mark.parametrize("old, new, expected", [
