@@ -1,6 +1,7 @@
 #include "command.h"
 #include "command_value.h"
 #include "constants.h"
+#include "curve.h"
 #include "material.h"
 #include "thermal.h"
 #include "weather_place.h"
@@ -15,7 +16,8 @@
 static const char help[] =
     "usage: radsig thermal --materials FILE --material NAME --weather FILE --site LAT,LON\n"
     "                      --date YYYY-MM-DD --utc-offset H --thickness-cm X\n"
-    "                      [--slope D --azimuth D --power-w-m2 X --model therm|layered]\n"
+    "                      [--slope D --azimuth D --power-w-m2 X --model therm|layered\n"
+    "                       --plot FILE.png]\n"
     "\n"
     "Takes one facet in full sun through a weather history and prints time_h,temperature_c, a row\n"
     "per weather record. Degrees north and east are positive.\n"
@@ -26,17 +28,32 @@ static const char help[] =
     "  --azimuth      of the outward normal, clockwise from north (default 0)\n"
     "  --power-w-m2   self-generated (default 0)\n"
     "  --model        therm (the default), or layered: unequal nodes, McAdams' convection, air\n"
-    "                 behind where abs(exposed area) is above .75\n";
+    "                 behind where abs(exposed area) is above .75\n"
+    "  --plot         draws the temperatures and the air's\n";
 
 typedef struct thermal_request {
     const char *materials, *material, *weather;
     site place;
+    const char *plot;
     double slope_deg, azimuth_deg, thickness_cm, power_w_m2;
     bool is_layered;
 } thermal_request;
 
-enum { MATERIALS, MATERIAL, WEATHER, SITE, DATE, OFFSET, SLOPE, AZIMUTH, THICKNESS, POWER, MODEL };
-enum { VALUES = MODEL + 1, HELP = VALUES, REQUIRED = SLOPE };
+enum {
+    MATERIALS,
+    MATERIAL,
+    WEATHER,
+    SITE,
+    DATE,
+    OFFSET,
+    SLOPE,
+    AZIMUTH,
+    THICKNESS,
+    POWER,
+    MODEL,
+    PLOT
+};
+enum { VALUES = PLOT + 1, HELP = VALUES, REQUIRED = SLOPE };
 
 static const struct option options[] = {[MATERIALS] = {"materials", 1, NULL, MATERIALS},
                                         [MATERIAL] = {"material", 1, NULL, MATERIAL},
@@ -49,6 +66,7 @@ static const struct option options[] = {[MATERIALS] = {"materials", 1, NULL, MAT
                                         [THICKNESS] = {"thickness-cm", 1, NULL, THICKNESS},
                                         [POWER] = {"power-w-m2", 1, NULL, POWER},
                                         [MODEL] = {"model", 1, NULL, MODEL},
+                                        [PLOT] = {"plot", 1, NULL, PLOT},
                                         [HELP] = {"help", 0, NULL, HELP},
                                         {0}};
 
@@ -95,6 +113,7 @@ static int check_values(char *value[VALUES], thermal_request *out)
     out->materials = value[MATERIALS];
     out->material = value[MATERIAL];
     out->weather = value[WEATHER];
+    out->plot = value[PLOT];
     return 0;
 }
 
@@ -159,6 +178,27 @@ out:
     return rc;
 }
 
+static status plot(const thermal_request *request, const weather *w, const float *temperature_k)
+{
+    status rc = STATUS_OK;
+    double *values = malloc(3 * w->count * sizeof *values);
+    double *time_h = values, *surface_c = values + w->count, *air_c = values + 2 * w->count;
+    const curve_line lines[] = {{"air", air_c, {120, 120, 120}},
+                                {request->material, surface_c, {200, 60, 20}}};
+    const curve c = {request->material, "C", time_h, w->count, lines, 2};
+
+    NEED(values, STATUS_MEMORY, "no memory to draw %zu temperatures", w->count);
+    for (size_t i = 0; i < w->count; i++) {
+        time_h[i] = w->record[i].time_h;
+        surface_c[i] = (double)temperature_k[i] - (double)ZERO_CELSIUS_K;
+        air_c[i] = w->record[i].air_temperature_k - (double)ZERO_CELSIUS_K;
+    }
+    TRY(curve_write(request->plot, &c));
+out:
+    free(values);
+    return rc;
+}
+
 static status run(const thermal_request *request)
 {
     status rc = STATUS_OK;
@@ -181,6 +221,7 @@ static status run(const thermal_request *request)
     temperature_k = malloc(w->count * sizeof *temperature_k);
     NEED(temperature_k, STATUS_MEMORY, "no memory for %zu temperatures", w->count);
     TRY(compute(&facet, &matter, w, &request->place, temperature_k));
+    if (request->plot) TRY(plot(request, w, temperature_k));
     puts("time_h,temperature_c");
     for (size_t i = 0; i < w->count; i++)
         printf("%.4f,%.4f\n", w->record[i].time_h,

@@ -1,6 +1,7 @@
 #include "command.h"
 #include "command_value.h"
 #include "constants.h"
+#include "curve.h"
 #include "output_file.h"
 #include "thermal.h"
 #include "weather_table.h"
@@ -17,7 +18,7 @@ static const char help[] =
     "           --conductivity-w-m-k K --heat-capacity-j-m3-k C\n"
     "           [--surface-resistance-s-m DAY,NIGHT --back adiabatic|air|ground --model "
     "layered|therm\n"
-    "            -o FILE.csv]\n"
+    "            -o FILE.csv --plot FILE.png]\n"
     "\n"
     "Takes a level surface through measured weather and compares its temperature with the "
     "measured\n"
@@ -27,10 +28,11 @@ static const char help[] =
     "  --surface-resistance-s-m   to evaporation; without it the surface is dry\n"
     "  --back                     behind the thickness (default adiabatic); ground: the mean air\n"
     "                             temperature 1 m below the surface\n"
-    "  -o                         writes time_h,measured_c,predicted_c\n";
+    "  -o                         writes time_h,measured_c,predicted_c\n"
+    "  --plot                     draws both\n";
 
 typedef struct validation {
-    const char *table, *output;
+    const char *table, *output, *plot;
     site place;
     facet_record facet;
     material_record material;
@@ -50,9 +52,10 @@ enum {
     RESISTANCE,
     BACK,
     MODEL,
-    OUTPUT
+    OUTPUT,
+    PLOT
 };
-enum { VALUES = OUTPUT + 1, HELP = VALUES, REQUIRED = RESISTANCE };
+enum { VALUES = PLOT + 1, HELP = VALUES, REQUIRED = RESISTANCE };
 
 static const struct option options[] = {
     [SITE] = {"site", 1, NULL, SITE},
@@ -67,6 +70,7 @@ static const struct option options[] = {
     [BACK] = {"back", 1, NULL, BACK},
     [MODEL] = {"model", 1, NULL, MODEL},
     [OUTPUT] = {"output", 1, NULL, OUTPUT},
+    [PLOT] = {"plot", 1, NULL, PLOT},
     [HELP] = {"help", 0, NULL, HELP},
     {0}};
 
@@ -145,6 +149,7 @@ static int take_values(char *value[VALUES], validation *out)
     out->material.specific_heat_j_kg_k = capacity;
     out->material.exposed_area = -.5f;
     out->output = value[OUTPUT];
+    out->plot = value[PLOT];
     return 0;
 }
 
@@ -248,6 +253,28 @@ out:
     return rc;
 }
 
+static status plot(const char *path, const weather_table *t, const float *predicted_k)
+{
+    status rc = STATUS_OK;
+    const size_t count = t->history->count;
+    double *values = malloc(3 * count * sizeof *values);
+    double *time_h = values, *measured_c = values + count, *predicted_c = values + 2 * count;
+    const curve_line lines[] = {{"measured", measured_c, {120, 120, 120}},
+                                {"predicted", predicted_c, {200, 60, 20}}};
+    const curve c = {"surface temperature", "C", time_h, count, lines, 2};
+
+    NEED(values, STATUS_MEMORY, "no memory to draw %zu temperatures", count);
+    for (size_t i = 0; i < count; i++) {
+        time_h[i] = t->history->record[i].time_h;
+        measured_c[i] = t->surface_k[i] - (double)ZERO_CELSIUS_K;
+        predicted_c[i] = (double)predicted_k[i] - (double)ZERO_CELSIUS_K;
+    }
+    TRY(curve_write(path, &c));
+out:
+    free(values);
+    return rc;
+}
+
 static status run(const validation *v)
 {
     status rc = STATUS_OK;
@@ -260,6 +287,7 @@ static status run(const validation *v)
     NEED(predicted_k, STATUS_MEMORY, "no memory for %zu temperatures", t.history->count);
     TRY(predict(v, t.history, predicted_k));
     if (v->output) TRY(write_rows(v->output, &t, predicted_k));
+    if (v->plot) TRY(plot(v->plot, &t, predicted_k));
     print_difference(&t, predicted_k);
 out:
     free(predicted_k);

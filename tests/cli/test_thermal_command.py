@@ -165,3 +165,18 @@ def test_both_models_agree_on_a_thin_sheet_but_for_their_convection(materials):
             for model in ("therm", "layered")]
 
     assert abs(noon[0] - noon[1]) < 12 and noon[0] != noon[1]
+
+
+def test_a_plot_is_a_png_that_shows_both_curves(materials, tmp_path):
+    done = of_row(materials, "Asphalt", plot=tmp_path / "asphalt.png")
+
+    content = (tmp_path / "asphalt.png").read_bytes()
+    assert done.returncode == 0 and content[:8] == b"\x89PNG\r\n\x1a\n"
+    assert int.from_bytes(content[16:20], "big") == 800  # width, of the header chunk
+    assert [p.name for p in tmp_path.glob("asphalt*")] == ["asphalt.png"]
+
+
+def test_a_plot_that_cannot_be_written_is_an_error(materials, tmp_path):
+    done = of_row(materials, "Asphalt", plot=tmp_path / "absent" / "asphalt.png")
+
+    assert done.returncode == 1 and "asphalt.png" in done.stderr
