@@ -184,7 +184,7 @@ test: deps all $(HOST_TESTS) $(ATMOSPHERE_AT_HAND)
 	$(RUN_SANITIZED) RADSIG=$(PROGRAM) $(PYTHON) -m pytest -q -p no:cacheprovider tests
 
 # PoCL and LLVM keep memory until the process ends.
-RUN_SANITIZED = $(if $(SAN),LSAN_OPTIONS=suppressions=tests/sanitizer.supp,) \
+RUN_SANITIZED = $(if $(SAN),LSAN_OPTIONS=print_suppressions=0:suppressions=$(CURDIR)/tests/sanitizer.supp,) \
 	RADSIG_SHARED=$${RADSIG_SHARED:-../shared}
 
 $(BUILD)/tests/%: $(BUILD)/tests/host/%_test.o $(LIBRARY)
