@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double STEP_CM1 = 2.0;
+static const double STEP_CM1 = 2.0, STEP_GROWS_FROM_CM1 = 1e4 / 3.0;
 
 double band_look_up(const atmosphere *air, const double *value, double wavenumber_cm1)
 {
@@ -40,10 +40,17 @@ out:
     return rc;
 }
 
-/* Adds samples from the last one down to `to`, at most STEP_CM1 apart; without room, counts. */
+double band_step_cm1(double wavenumber_cm1)
+{
+    const double ratio = wavenumber_cm1 / STEP_GROWS_FROM_CM1;
+
+    return STEP_CM1 * fmax(1.0, ratio * ratio);
+}
+
+/* Adds samples from the last one down to `to`, close enough; without room, counts. */
 static void add_segment(band_samples *out, double from, double to, bool exact)
 {
-    const int steps = exact ? (int)ceil((from - to) / STEP_CM1 - 1e-9) : 1;
+    const int steps = exact ? (int)ceil((from - to) / band_step_cm1(to) - 1e-9) : 1;
 
     for (int i = 1; i <= steps; i++, out->count++)
         if (out->wavenumber_cm1) out->wavenumber_cm1[out->count] = from + (to - from) * i / steps;

@@ -1,12 +1,11 @@
 #include "uniform_atmosphere.h"
 
+#include "band.h"
 #include "planck.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double STEP_CM1 = 2.0;
 
 static status allocate(atmosphere *a, int points)
 {
@@ -52,7 +51,7 @@ status uniform_atmosphere_make(atmosphere **out, const uniform_sky *sky, double 
 {
     status rc = STATUS_OK;
     const double high = 1e4 / low_um, low = 1e4 / high_um;
-    const int points = (int)ceil((high - low) / STEP_CM1) + 1;
+    const int points = (int)ceil((high - low) / band_step_cm1(low)) + 1;
     atmosphere *a = calloc(1, sizeof *a);
 
     NEED(a, STATUS_MEMORY, "no memory for the atmosphere");

@@ -15,7 +15,8 @@ typedef struct uniform_sky {
     double path_temperature_k;      /* the path radiates (1 - transmission) B of this */
 } uniform_sky;
 
-/* Makes the database that such a sky would have, on a grid of 2 cm-1 from low_um to high_um, with
+/* Makes the database that such a sky would have, on an even grid from low_um to high_um, of 2 cm-1
+ * or, where it ends below 3 um, of band_step_cm1 there,, with
  * one path angle and one direction of the sky.
  *   thesis   Planck's law with the thesis' constants */
 status uniform_atmosphere_make(atmosphere **out, const uniform_sky *sky, double low_um,
