@@ -95,18 +95,27 @@ status ray_scene_primary(const ray_scene *scene, const camera_record *camera, ui
                       ARG(out_hit));
 }
 
+/* A work-item has a batch of rays where it has packets; kernels/ray_order.h. */
+static device_shape batches(const device *dev, uint32_t count)
+{
+    const size_t packed = 1024;
+
+    if (device_describe(dev)->ray_lanes == 1) return shape1(count);
+    return (device_shape){{(count + packed - 1) / packed, 1}, 1};
+}
+
 status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t stride, device_memory rays,
                        device_memory out_range, device_memory out_facet)
 {
-    return device_run(scene->dev, "trace", device_ray_shape(scene->dev, count, 1), ARG(count),
-                      ARG(stride), ARG(scene->world), ARG(scene->node), ARG(scene->block),
-                      ARG(rays), ARG(out_range), ARG(out_facet));
+    return device_run(scene->dev, "trace", batches(scene->dev, count), ARG(count), ARG(stride),
+                      ARG(scene->world), ARG(scene->node), ARG(scene->block), ARG(rays),
+                      ARG(out_range), ARG(out_facet));
 }
 
 status ray_scene_occluded(const ray_scene *scene, uint32_t count, uint32_t stride,
                           device_memory rays, device_memory out_met)
 {
-    return device_run(scene->dev, "occluded", device_ray_shape(scene->dev, count, 1), ARG(count),
-                      ARG(stride), ARG(scene->world), ARG(scene->node), ARG(scene->block),
-                      ARG(rays), ARG(out_met));
+    return device_run(scene->dev, "occluded", batches(scene->dev, count), ARG(count), ARG(stride),
+                      ARG(scene->world), ARG(scene->node), ARG(scene->block), ARG(rays),
+                      ARG(out_met));
 }

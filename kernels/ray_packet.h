@@ -18,6 +18,7 @@ typedef struct ray_packet {
     float origin[3][RAY_LANES], direction[3][RAY_LANES];
     uint alive;
     uint cull_back;
+    uint loose; /* 1: the rays soon part, so that single rays take over early */
 } ray_packet;
 
 /* What the lanes met, as ray_hit has it. */
@@ -31,6 +32,7 @@ static inline void ray_packet_clear(ray_packet *p, const world_record *world)
 {
     p->alive = 0;
     p->cull_back = world->cull_back;
+    p->loose = 0;
 }
 
 static inline void ray_packet_set(ray_packet *p, const uint lane, const ray *r)
@@ -43,20 +45,21 @@ static inline void ray_packet_set(ray_packet *p, const uint lane, const ray *r)
     p->alive |= 1u << lane;
 }
 
-/* Takes up to RAY_LANES rays that lie by component, `stride` numbers each.
- *   ray   (6, stride), moved to the first of them: origins, directions */
+/* Takes RAY_LANES rays that lie by component, `stride` numbers each.
+ *   rays   (6, stride), moved to the first of them: origins, directions */
 static inline ray_packet ray_packet_load(const world_record *world, global const float *rays,
-                                         const uint stride, const uint count)
+                                         const uint stride)
 {
     ray_packet p;
 
     ray_packet_clear(&p, world);
-    p.alive = count < RAY_LANES ? (1u << count) - 1 : RAY_LANES == 16 ? 0xffff : 1;
-    for (uint i = 0; i < RAY_LANES; i++) UNROLL
-    for (uint k = 0; k < 3; k++) {
-        p.origin[k][i] = i < count ? rays[(size_t)k * stride + i] : 0.0f;
-        p.direction[k][i] = i < count ? rays[(size_t)(k + 3) * stride + i] : 1.0f;
-    }
+    p.alive = (1u << RAY_LANES) - 1;
+    UNROLL
+    for (uint k = 0; k < 3; k++)
+        for (uint i = 0; i < RAY_LANES; i++) {
+            p.origin[k][i] = rays[(size_t)k * stride + i];
+            p.direction[k][i] = rays[(size_t)(k + 3) * stride + i];
+        }
     return p;
 }
 
@@ -81,9 +84,13 @@ static inline ray_hit ray_packet_hit_of(const ray_packet_hit *hit, const uint la
 
 #include "ray_lanes.h"
 
-/* Where this many rays are left they go on one by one: below a node, and in a leaf. */
-#define RAY_PACKET_FEW_IN_NODE 2
-#define RAY_PACKET_FEW_IN_LEAF 4
+/* Where this many rays are left they go on one by one: below a node, and in a leaf. Measured: packets
+ * that point to several octants, or were sorted, part sooner than those of neighbouring pixels. */
+static inline uint ray_packet_few(const uint together, const uint in_leaf)
+{
+    if (together) return in_leaf ? 1 : 0;
+    return in_leaf ? 4 : 2;
+}
 
 /* A packet on its way through the tree; frames of single rays are made when they are needed. */
 typedef struct ray_packet_walk {
@@ -91,6 +98,7 @@ typedef struct ray_packet_walk {
     const ray_packet *packet;
     ray_frame frame[16];
     uint framed; /* a bit per frame that is made */
+    uint together;
 } ray_packet_walk;
 
 static inline ray_packet_walk ray_packet_start(const ray_packet *p)
@@ -100,6 +108,7 @@ static inline ray_packet_walk ray_packet_start(const ray_packet *p)
     w.lanes = ray_lanes_of(p->origin, p->direction, p->alive, p->cull_back);
     w.packet = p;
     w.framed = 0;
+    w.together = w.lanes.coherent && !p->loose;
     return w;
 }
 
@@ -191,26 +200,34 @@ static inline uint ray_packet_any_leaf(const ray_lanes *f, global const bvh_bloc
 typedef struct ray_packet_stack {
     float16 entered[RAY_STACK_SIZE];
     uint word[RAY_STACK_SIZE];
-    uint depth;
 } ray_packet_stack;
 
-/* Puts the children that a lane enters on the stack, the nearest on top. */
-static inline void ray_packet_open(const ray_lanes *f, global const bvh_node *node,
+/* Sorts the children of a mask by a node's order: bit k is the child that stands k-th. */
+static inline uint ray_packet_sort(const uint order, const uint mask)
+{
+    const uint8 child = (uint8)order >> (uint8)(0, 4, 8, 12, 16, 20, 24, 28) & 7u;
+
+    return ray_mask(as_int8((uint8)mask >> child << 31));
+}
+
+/* Puts the children that a lane enters on the stack, the nearest on top; returns its depth. */
+static inline uint ray_packet_open(const ray_lanes *f, global const bvh_node *node,
                                    const uint coherent, const float16 limit,
-                                   ray_packet_stack *stack)
+                                   ray_packet_stack *stack, uint depth)
 {
     const uint order = node->order[f->octant];
     const uint mask = coherent ? ray_lanes_reach(f, node, MAXFLOAT) : 0xff;
 
     for (int i = 28; i >= 0; i -= 4) {
         const uint child = order >> i & 7;
-        float16 range;
         if (!(mask >> child & 1)) continue;
+        float16 range;
         const int16 enters = ray_lanes_enter(f, node, child, coherent, limit, &range);
         if (ray_lanes_mask(enters) == 0) continue;
-        stack->word[stack->depth] = node->child[child];
-        stack->entered[stack->depth++] = enters ? range : (float16)NAN;
+        stack->word[depth] = node->child[child];
+        stack->entered[depth++] = enters ? range : (float16)NAN;
     }
+    return depth;
 }
 
 /* Finds the nearest triangle of each lane. */
@@ -221,31 +238,29 @@ static inline void ray_packet_closest(global const bvh_node *nodes, global const
     ray_packet_stack stack;
     ray_packet_nearest best = {MAXFLOAT, RECORD_NONE, 0};
     int16 active = ray_lanes_of_mask(p->alive);
-    uint word = 0;
+    uint word = 0, depth = 0;
 
     if (p->alive == 0) return;
     w = ray_packet_start(p);
     best.range = active ? (float16)MAXFLOAT : (float16)-1.0f;
-    stack.depth = 0;
     for (;;) {
         const uint rays = ray_lanes_mask(active), count = popcount(rays);
-        const uint few = word & BVH_LEAF ? RAY_PACKET_FEW_IN_LEAF : RAY_PACKET_FEW_IN_NODE;
         const float16 limit = best.range * RAY_SLACK;
-        if (count <= few)
+        if (count <= ray_packet_few(w.together, word >> 31))
             ray_packet_closest_single(&w, nodes, blocks, word, rays, &best);
         else if (word & BVH_LEAF && w.lanes.axis == 3)
             ray_packet_closest_leaf(&w.lanes, blocks, word, 3, active, &best);
         else if (word & BVH_LEAF)
             ray_packet_closest_leaf(&w.lanes, blocks, word, w.lanes.axis % 3, active, &best);
         else if (w.lanes.coherent)
-            ray_packet_open(&w.lanes, nodes + word, 1, limit, &stack);
+            depth = ray_packet_open(&w.lanes, nodes + word, 1, limit, &stack, depth);
         else
-            ray_packet_open(&w.lanes, nodes + word, 0, limit, &stack);
+            depth = ray_packet_open(&w.lanes, nodes + word, 0, limit, &stack, depth);
         do {
-            if (stack.depth == 0) goto done;
-            active = stack.entered[--stack.depth] <= best.range * RAY_SLACK;
+            if (depth == 0) goto done;
+            active = stack.entered[--depth] <= best.range * RAY_SLACK;
         } while (ray_lanes_mask(active) == 0);
-        word = stack.word[stack.depth];
+        word = stack.word[depth];
     }
 done:
     best.range = as_int16(best.facet) == -1 ? (float16)INFINITY : best.range;
@@ -266,7 +281,8 @@ static inline uint ray_packet_open_any(const ray_lanes *f, global const bvh_node
         float16 range;
         const int16 enters = ray_lanes_enter(f, node, child, coherent, MAXFLOAT, &range);
         const uint lanes = active & ray_lanes_mask(enters);
-        if (lanes) stack[depth++] = (ulong)lanes << 32 | node->child[child];
+        stack[depth] = (ulong)lanes << 32 | node->child[child];
+        depth += lanes != 0;
     }
     return depth;
 }
@@ -298,8 +314,7 @@ static inline uint ray_packet_any(global const bvh_node *nodes, global const bvh
     w = ray_packet_start(p);
     for (;;) {
         const uint count = popcount(active);
-        const uint few = word & BVH_LEAF ? RAY_PACKET_FEW_IN_LEAF : RAY_PACKET_FEW_IN_NODE;
-        if (count <= few)
+        if (count <= ray_packet_few(w.together, word >> 31))
             met |= ray_packet_any_single(&w, nodes, blocks, word, active);
         else if (word & BVH_LEAF && w.lanes.axis == 3)
             met |= active & ray_packet_any_leaf(&w.lanes, blocks, word, 3);

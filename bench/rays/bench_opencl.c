@@ -14,7 +14,8 @@ const char *const bench_opencl_modes[OPENCL_MODES] = {"packets", "one ray, 8 wid
 
 static const char *const build_options[OPENCL_MODES] = {"-cl-std=CL1.2 -DRAY_LANES=16",
                                                         "-cl-std=CL1.2 -DRAY_LANES=1"};
-static const size_t lanes[OPENCL_MODES] = {16, 1}, local_size[OPENCL_MODES] = {4, 64};
+static const size_t batch[OPENCL_MODES] = {1024, 1},
+                    local_size[OPENCL_MODES] = {1, 64}; /* ray_order.h */
 
 struct bench_opencl {
     cl_device_id all, one;
@@ -129,7 +130,7 @@ static status launch(const bench_opencl *c, cl_kernel kernel, const bench_rays *
                      int cores, double *out_wall_s, double *out_cpu_s)
 {
     status rc = STATUS_OK;
-    const size_t local = local_size[mode], items = rays->count / lanes[mode];
+    const size_t local = local_size[mode], items = (rays->count + batch[mode] - 1) / batch[mode];
     const size_t global = (items + local - 1) / local * local;
     const cl_command_queue queue = c->queue[cores - 1];
     cl_int error;

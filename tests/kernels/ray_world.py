@@ -44,18 +44,24 @@ class RayWorld:
             cl.enqueue_copy(self.opencl.queue, array, buffer)
         return arrays
 
+    def batches(self, count):
+        """The launch of kernels that sort their rays, kernels/ray_order.h."""
+        return (-(-count // (1024 if self.lanes == 16 else 1)), 1)
+
     def trace(self, rays, **how):
         """rays: (n, 6). Returns range, facet."""
         rays = np.asarray(rays, np.float32)
         arguments = (np.uint32(len(rays)), self.world[0], self.nodes, self.blocks,
                      self.copy(rays.T))
-        return self.run("trace", len(rays), arguments, np.float32, np.uint32, **how)
+        shape = self.batches(len(rays))
+        return self.run("trace", len(rays), arguments, np.float32, np.uint32, shape=shape, **how)
 
     def occluded(self, rays, **how):
         rays = np.asarray(rays, np.float32)
         arguments = (np.uint32(len(rays)), self.world[0], self.nodes, self.blocks,
                      self.copy(rays.T))
-        return self.run("occluded", len(rays), arguments, np.uint8, **how)[0]
+        shape = self.batches(len(rays))
+        return self.run("occluded", len(rays), arguments, np.uint8, shape=shape, **how)[0]
 
     def primary(self, camera, columns, first, count, **how):
         arguments = (np.uint32(first), np.uint32(columns), camera[0], self.world[0], self.nodes,

@@ -293,8 +293,8 @@ def test_packets_answer_as_single_rays(opencl, monkeypatch):
     world = RayWorld(opencl, mesh)
     rays = rays_from_surfaces(mesh, 1 << 17, seed=14)
     monkeypatch.setattr(RayWorld, "lanes", 16)
-    range_m, facet = world.trace(rays, local=4)
-    met = world.occluded(rays, local=4)
+    range_m, facet = world.trace(rays, local=1)
+    met = world.occluded(rays, local=1)
 
     monkeypatch.setattr(RayWorld, "lanes", 1)
     single_m, single_facet = world.trace(rays)

@@ -1,0 +1,96 @@
+/* Ray order: sorts the rays of a batch by direction where neighbours point to different sides, so that
+ * packets hold rays that meet the same nodes. The answer to a ray does not depend on it. */
+#ifndef RAY_ORDER_H
+#define RAY_ORDER_H
+
+#include "ray_packet.h"
+
+/* Rays of a work-item. */
+#define RAY_BATCH (RAY_LANES == 16 ? 1024 : 1)
+
+/* Directions fall into 8 octants of 16 cells each. */
+#define RAY_ORDER_CELLS 128
+
+#if RAY_LANES == 16
+
+/* The cells of 16 directions; those that are no directions have one too. */
+static inline uchar16 ray_order_cells(const float16 x, const float16 y, const float16 z)
+{
+    const float16 sum = fabs(x) + fabs(y) + fabs(z);
+    const int16 u = min(convert_int16_sat(4.0f * fabs(x) / sum), 3);
+    const int16 v = min(convert_int16_sat(4.0f * fabs(y) / sum), 3);
+    const int16 octant = ((x < 0.0f) & 64) | ((y < 0.0f) & 32) | ((z < 0.0f) & 16);
+
+    return convert_uchar16(octant | (u << 2) | v);
+}
+
+/* Finds the cells of a full batch; returns 1 where most packets point to several octants. */
+static inline uint ray_order_is_mixed(global const float *direction, const uint stride,
+                                      uchar cell[RAY_BATCH])
+{
+    uint mixed = 0;
+
+    for (uint i = 0; i < RAY_BATCH; i += 16) {
+        const uchar16 cells =
+            ray_order_cells(vload16(0, direction + i), vload16(0, direction + stride + i),
+                            vload16(0, direction + 2 * (size_t)stride + i));
+        mixed += any(cells >> (uchar)4 != (uchar16)(cells.s0 >> 4));
+        vstore16(cells, 0, cell + i);
+    }
+    return mixed > RAY_BATCH / 16 / 2;
+}
+
+/* Puts the rays of a batch in order: as they stand, or by cell; returns 1 for the latter.
+ *   direction   (3, stride), moved to the batch; count: up to RAY_BATCH */
+static inline uint ray_order_of(global const float *direction, const uint stride, const uint count,
+                                ushort order[RAY_BATCH])
+{
+    uchar cell[RAY_BATCH];
+    ushort first[RAY_ORDER_CELLS + 1];
+
+    if (count < RAY_BATCH || !ray_order_is_mixed(direction, stride, cell)) {
+        for (uint i = 0; i < count; i++) order[i] = (ushort)i;
+        return 0;
+    }
+    for (uint i = 0; i <= RAY_ORDER_CELLS; i++) first[i] = 0;
+    for (uint i = 0; i < RAY_BATCH; i++) first[cell[i] + 1]++;
+    for (uint i = 0; i < RAY_ORDER_CELLS; i++) first[i + 1] += first[i];
+    for (uint i = 0; i < RAY_BATCH; i++) order[first[cell[i]]++] = (ushort)i;
+    return 1;
+}
+
+#else
+
+static inline uint ray_order_of(global const float *direction, const uint stride, const uint count,
+                                ushort order[RAY_BATCH])
+{
+    order[0] = 0;
+    return 0;
+}
+
+#endif
+
+/* Takes up to RAY_LANES rays of a batch, the first of them being number `at` of the order.
+ *   rays   (6, stride), moved to the batch: origins, directions */
+static inline ray_packet ray_order_load(const world_record *world, global const float *rays,
+                                        const uint stride, const uint sorted, const ushort *order,
+                                        const uint at, const uint count)
+{
+    ray_packet p;
+
+    if (!sorted && count == RAY_LANES) return ray_packet_load(world, rays + at, stride);
+    ray_packet_clear(&p, world);
+    p.alive = (1u << count) - 1;
+    p.loose = sorted;
+    for (uint i = 0; i < RAY_LANES; i++) {
+        const size_t from = order[at + (i < count ? i : 0)];
+        UNROLL
+        for (uint k = 0; k < 3; k++) {
+            p.origin[k][i] = rays[(size_t)k * stride + from];
+            p.direction[k][i] = rays[(size_t)(k + 3) * stride + from];
+        }
+    }
+    return p;
+}
+
+#endif
