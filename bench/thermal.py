@@ -56,7 +56,7 @@ def measure(context, kernel, rows):
     with cl.CommandQueue(context) as queue:
         for _ in range(RUNS + 1):
             start = time.perf_counter()
-            kernel(queue, (FACETS // LANES,), (LOCAL,), span[0], *memory, out)
+            kernel(queue, (FACETS // LANES,), (LOCAL,), span[0], *memory, np.uint32(0), None, out)
             queue.finish()
             seconds.append(time.perf_counter() - start)
     return seconds[1:]

@@ -208,7 +208,7 @@ static status run(const thermal_request *request)
     const facet_record facet = facet_of(request);
     const layered_matter layered = layered_matter_default();
     material_record record;
-    const thermal_matter matter = {&record, request->is_layered ? &layered : NULL, 1};
+    const thermal_matter matter = {&record, request->is_layered ? &layered : NULL, NULL, 1};
 
     TRY(material_library_read(&library, request->materials));
     const material *named = material_by_name(library, request->material);

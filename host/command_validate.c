@@ -202,7 +202,7 @@ out:
 static status predict(const validation *v, const weather *w, float *out_k)
 {
     status rc = STATUS_OK;
-    const thermal_matter matter = {&v->material, v->is_layered ? &v->layered : NULL, 1};
+    const thermal_matter matter = {&v->material, v->is_layered ? &v->layered : NULL, NULL, 1};
     device *dev = NULL;
     thermal *t = NULL;
 

@@ -120,6 +120,7 @@ void layered_fill(layered_record *out, const facet_record *facet, const material
         .resistance_day_s_m = resistance(matter->resistance_day_s_m),
         .resistance_night_s_m = resistance(matter->resistance_night_s_m),
         .film_limit_kg_m2 = (float)FILM_LIMIT_KG_M2,
+        .material = facet->material,
     };
     memcpy(out->normal, facet->normal, sizeof out->normal);
     fill_ladder(out, &c);

@@ -9,6 +9,7 @@
 #include "emissivity.h"
 #include "geometry.h"
 #include "layered.h"
+#include "power.h"
 #include "site.h"
 #include "view.h"
 #include "weather.h"
@@ -31,6 +32,7 @@ typedef struct scene_material {
     double temperature_k;   /* for thermal fixed; 0: not stated */
     bool two_sided;
     layered_matter layered;
+    power_table power;
 } scene_material;
 
 /* "fixed", "therm", "layered". */

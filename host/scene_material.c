@@ -15,6 +15,7 @@ typedef struct stated_material {
     double solar_absorptance, exposed_area;
     bool two_sided;
     layered_matter layered;
+    power_table power;
 } stated_material;
 
 /* Where materials are looked up. */
@@ -57,6 +58,7 @@ static stated_material read_stated(scene_reader *reader, const toml_node *node)
     scene_table_number(&t, "exposed_area", -1.0, 1.0, &m.exposed_area);
     scene_table_bool(&t, "two_sided", &m.two_sided);
     scene_read_layered(&t, &m.layered);
+    scene_read_power(&t, &m.power);
     scene_table_close(&t);
     return m;
 }
@@ -215,6 +217,7 @@ static void add_material(const material_sources *from, const char *name, const m
         m->thickness_m = isnan(stated->thickness_cm) ? 0.0 : .01 * stated->thickness_cm;
         m->temperature_k = isnan(stated->temperature_k) ? 0.0 : stated->temperature_k;
         m->two_sided = stated->two_sided;
+        m->power = stated->power;
     }
     check_material(from->reader, m, stated, stated ? stated->node : from->library_node);
 }

@@ -23,6 +23,9 @@ void scene_read_geometry(scene_reader *reader);
 /* The keys of a [[material]] that thermal = "layered" uses; without them `out` is left as it is. */
 void scene_read_layered(scene_table *t, layered_matter *out);
 
+/* The power by the clock of a [[material]]; `out` is empty. */
+void scene_read_power(scene_table *t, power_table *out);
+
 /* [library] and [[material]]; after geometry and render: only what is used is kept. */
 void scene_read_materials(scene_reader *reader, const char *ground_material);
 

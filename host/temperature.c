@@ -38,16 +38,20 @@ static status open_model(temperature *t, const scene *s)
     status rc = STATUS_OK;
     material_record *material = malloc((s->material_count + 1) * sizeof *material);
     layered_matter *layered = malloc((s->material_count + 1) * sizeof *layered);
-    const thermal_matter matter = {material, s->thermal == SCENE_THERMAL_LAYERED ? layered : NULL,
-                                   s->material_count};
+    power_table *power = malloc((s->material_count + 1) * sizeof *power);
+    const bool is_layered = s->thermal == SCENE_THERMAL_LAYERED;
+    const thermal_matter matter = {material, is_layered ? layered : NULL, power, s->material_count};
 
-    NEED(material && layered, STATUS_MEMORY, "no memory for %u materials", s->material_count);
+    NEED(material && layered && power, STATUS_MEMORY, "no memory for %u materials",
+         s->material_count);
     for (uint32_t i = 0; i < s->material_count; i++) {
         material[i] = s->materials[i].record;
         layered[i] = s->materials[i].layered;
+        power[i] = s->materials[i].power;
     }
     TRY(thermal_open(&t->model, t->dev, &matter, s->history, &s->place));
 out:
+    free(power);
     free(layered);
     free(material);
     return rc;

@@ -19,6 +19,8 @@ struct thermal {
     layered_matter *layered; /* NULL: as THERM does it */
     double mean_air_k;
     device_memory materials, forcing;
+    device_memory power;      /* shape (steps, power_materials) */
+    uint32_t power_materials; /* 0: no material's power changes */
     size_t step_count;
     double step_s, time_h; /* of the image, since the first step */
 };
@@ -101,6 +103,26 @@ out:
     return rc;
 }
 
+static status upload_power(thermal *t, const thermal_matter *m, const weather *w)
+{
+    status rc = STATUS_OK;
+    float *power = NULL;
+    bool any = false;
+
+    for (size_t k = 0; m->power && k < m->count; k++) any |= m->power[k].count > 0;
+    if (!any) return STATUS_OK;
+    power = malloc(w->count * m->count * sizeof *power);
+    NEED(power, STATUS_MEMORY, "no memory for the power of %zu materials", m->count);
+    for (size_t i = 0; i < w->count; i++)
+        for (size_t k = 0; k < m->count; k++)
+            power[i * m->count + k] = (float)power_at_hour(&m->power[k], w->record[i].time_h);
+    TRY(device_allocate(t->dev, &t->power, w->count * m->count * sizeof *power, power));
+    t->power_materials = (uint32_t)m->count;
+out:
+    free(power);
+    return rc;
+}
+
 status thermal_open(thermal **out, device *dev, const thermal_matter *matter, const weather *w,
                     const site *place)
 {
@@ -116,6 +138,7 @@ status thermal_open(thermal **out, device *dev, const thermal_matter *matter, co
     };
     TRY(keep_matter(t, matter));
     TRY(upload_forcing(t, w, place));
+    TRY(upload_power(t, matter, w));
     *out = t;
     t = NULL;
 out:
@@ -126,6 +149,7 @@ out:
 void thermal_free(thermal *t)
 {
     if (!t) return;
+    device_release(t->power);
     device_release(t->forcing);
     device_release(t->materials);
     free(t->layered);
@@ -190,10 +214,11 @@ static status compute(const thermal *t, const batch *b, thermal_span span, float
     TRY(device_allocate(t->dev, &temperature_k, bytes, NULL));
     if (t->layered)
         TRY(device_run(t->dev, "layered", shape, ARG(span), ARG(facets), ARG(t->forcing), ARG(lit),
-                       ARG(temperature_k)));
+                       ARG(t->power_materials), ARG(t->power), ARG(temperature_k)));
     else
         TRY(device_run(t->dev, "thermal", shape, ARG(span), ARG(facets), ARG(t->materials),
-                       ARG(t->forcing), ARG(lit), ARG(temperature_k)));
+                       ARG(t->forcing), ARG(lit), ARG(t->power_materials), ARG(t->power),
+                       ARG(temperature_k)));
     TRY(device_download(t->dev, temperature_k, 0, bytes, out_temperature_k));
 out:
     device_release(temperature_k);

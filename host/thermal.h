@@ -7,6 +7,7 @@
 #include "../kernels/records.h"
 #include "device.h"
 #include "layered.h"
+#include "power.h"
 #include "site.h"
 #include "weather.h"
 
@@ -16,6 +17,7 @@ typedef struct thermal thermal;
 typedef struct thermal_matter {
     const material_record *material; /* shape (count) */
     const layered_matter *layered;   /* shape (count); NULL: as THERM does it */
+    const power_table *power;        /* shape (count); NULL: none */
     size_t count;
 } thermal_matter;
 

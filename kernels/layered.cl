@@ -6,11 +6,17 @@ typedef struct layered_world {
     global const forcing_record *forcing;
     global const uint *sunlit;
     uint first; /* facet of lane 0 */
+    uint power_materials;
+    global const float *power;
 } layered_world;
 
 static thermal_load load_at(layered_world w, const layered_body *body, uint step)
 {
-    return thermal_load_of(&body->face, w.forcing[step], lit_at(w.sunlit, w.span, w.first, step));
+    thermal_load load =
+        thermal_load_of(&body->face, w.forcing[step], lit_at(w.sunlit, w.span, w.first, step));
+
+    load.direct_w_m2 += power_at(w.power, w.power_materials, body->material, step);
+    return load;
 }
 
 /* Goes through one step; returns the load after it. */
@@ -66,12 +72,13 @@ static layered_state start(layered_world w, const layered_body *body)
  * thermal.cl. */
 kernel void layered(const thermal_span span, global const layered_record *facets,
                     global const forcing_record *forcing, global const uint *sunlit,
+                    const uint power_materials, global const float *power,
                     global float *temperature_k)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= span.facet_count) return;
 
-    const layered_world w = {span, forcing, sunlit, first};
+    const layered_world w = {span, forcing, sunlit, first, power_materials, power};
     layered_body body;
     for (int lane = 0; lane < LANES_WIDTH; lane++) {
         const layered_record facet = facets[lanes_place(first, (uint)lane, span.facet_count)];

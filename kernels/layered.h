@@ -33,7 +33,8 @@ typedef struct layered_record {
     float resistance_day_s_m, resistance_night_s_m; /* below 0: dry */
     float film_limit_kg_m2;
     float stated_temperature_k; /* 0: to be computed */
-    uint unused[2];
+    uint material;
+    uint unused;
 } layered_record;
 RECORD_SIZE(layered_record, 128);
 
@@ -43,6 +44,7 @@ typedef struct layered_body {
     lanes is_stated, back_k;
     lanes day_s_m, night_s_m, film_limit;
     lanes stated_k;
+    uint material[LANES_WIDTH];
 } layered_body;
 
 typedef struct layered_state {
@@ -81,6 +83,7 @@ static inline void layered_set_body(layered_body *body, int lane, const layered_
     LAYERED_SET(body, night_s_m, lane, record->resistance_night_s_m);
     LAYERED_SET(body, film_limit, lane, record->film_limit_kg_m2);
     LAYERED_SET(body, stated_k, lane, record->stated_temperature_k);
+    body->material[lane] = record->material;
 }
 
 static inline layered_air layered_air_of(forcing_record now)

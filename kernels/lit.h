@@ -1,4 +1,5 @@
-/* Lit: whether the sun reaches facets at a step of the weather, from their bits. */
+/* Lit: what differs from facet to facet at a step of the weather: whether the sun reaches it, and
+ * power that is switched by the clock. */
 #ifndef LIT_H
 #define LIT_H
 
@@ -17,6 +18,19 @@ static inline lanes lit_at(global const uint *sunlit, thermal_span span, uint fi
     const lanes_bits word =
         lanes_load_bits(sunlit + (size_t)(slot / 32) * span.facet_count, first, span.facet_count);
     return lanes_of_bits(word >> (slot % 32) & 1u);
+}
+
+/* Power by the clock, W m-2.
+ *   power      shape (steps, material_count); not read without materials: none
+ *   material   of each lane */
+static inline lanes power_at(global const float *power, uint material_count, const uint *material,
+                             uint step)
+{
+    lanes out = (lanes)0.0f;
+
+    for (uint i = 0; i < LANES_WIDTH && material_count > 0; i++)
+        ((float *)&out)[i] = power[(size_t)step * material_count + material[i]];
+    return out;
 }
 
 #endif

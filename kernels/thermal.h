@@ -48,7 +48,7 @@ typedef struct thermal_body {
 
 /* What one instant of the weather does to a body. */
 typedef struct thermal_load {
-    lanes direct_w_m2; /* absorbed of the direct beam */
+    lanes direct_w_m2; /* absorbed of the direct beam, and power by the clock: both are held */
     lanes steady_w_m2; /* all else that the front takes in whatever its temperature */
     lanes back_w_m2;   /* the same for the back */
     lanes rain_w_m2_k;

@@ -121,3 +121,25 @@ def test_backgrounds_have_their_own_shade_in_exact_mode_alone(program, tmp_path)
     seen = (thesis > -9000) & (exact > -9000)
 
     assert seen.any() and (exact <= thesis + 1e-3)[seen].all()
+
+
+@pytest.mark.parametrize("model", ["therm", "layered"])
+def test_power_that_is_switched_on_warms_its_material_alone(program, tmp_path, model):
+    """600 W/m2 since eight in the morning, none by night."""
+    cold, warm = (scene(render={"thermal": model}) for _ in range(2))
+    warm["material"][1] = {**warm["material"][1], "power_w_m2_by_hour": [[8, 600.0], [20, 0]]}
+    before, after = (program.render(tmp_path, "--size", "50x50", **s).planes["temperature_c"]
+                     for s in (cold, warm))
+
+    rise = after - before
+    assert rise[25, 25] > 10  # the roof
+    assert rise[45, 25] == 0  # the ground
+
+
+@pytest.mark.parametrize("pairs", [[], [[8]], [[8, 1], [7, 1]], [[25, 1]], 500])
+def test_a_wrong_table_of_power_is_refused(program, tmp_path, pairs):
+    what = scene()
+    what["material"][0] = {**what["material"][0], "power_w_m2_by_hour": pairs}
+    done = program.run("check", program.write_scene(tmp_path, what.pop("meshes"), **what))
+
+    assert done.returncode == 1 and "power_w_m2_by_hour" in done.stderr

@@ -17,7 +17,8 @@ LAYERED = np.dtype([
     ("capacity_j_m2_k", "f4", 8), ("conductance_w_m2_k", "f4", 9), ("normal", "f4", 3),
     ("absorptance", "f4"), ("emissivity", "f4"), ("power_w_m2", "f4"), ("two_sided", "u4"),
     ("back", "u4"), ("back_k", "f4"), ("resistance_day_s_m", "f4"), ("resistance_night_s_m", "f4"),
-    ("film_limit_kg_m2", "f4"), ("stated_temperature_k", "f4"), ("unused", "u4", 2)])
+    ("film_limit_kg_m2", "f4"), ("stated_temperature_k", "f4"),
+    ("material", "u4"), ("unused", "u4")])
 
 
 def ladder(layers, ratio=1.5):
@@ -57,7 +58,7 @@ def steady(steps, **values):
 @pytest.fixture(scope="module")
 def layered(opencl):
     """Temperatures of the front, shape (steps, facets)."""
-    def run(facets, forcing, step_s=STEP_S, width=16):
+    def run(facets, forcing, step_s=STEP_S, width=16, power=None):
         kernel = opencl.build("layered", f"-DLANES_WIDTH={width}")
         span = np.zeros(1, SPAN)
         span[0] = (len(facets), 0, len(forcing), 0, 1.0, step_s, 0, len(forcing))
@@ -66,7 +67,9 @@ def layered(opencl):
         out = np.empty((len(forcing), len(facets)), np.float32)
         target = cl.Buffer(opencl.context, cl.mem_flags.WRITE_ONLY, out.nbytes)
         kernel(opencl.queue, ((len(facets) + width - 1) // width,), None, span[0], *memory, None,
-               target)
+               np.uint32(0 if power is None else power.shape[1]),
+               None if power is None else cl.Buffer(
+                   opencl.context, cl.mem_flags.COPY_HOST_PTR, hostbuf=power), target)
         cl.enqueue_copy(opencl.queue, out, target)
         return out.astype(float)
 
@@ -156,6 +159,16 @@ def test_the_start_is_the_end_of_endless_equal_days(layered, back, back_k):
                             back_k=back_k), forcing)[:, 0]
 
     assert abs(surface[96:] - surface[:97]).max() < 0.02  # .01 K a day of the slowest node
+
+
+def test_power_by_the_clock_enters_at_the_front(layered):
+    facets = np.concatenate([facet([(0.01, *ASPHALT)], material=m) for m in (0, 1)])
+    power = np.zeros((400, 2), np.float32)
+    power[:, 1] = 150.0
+
+    front = layered(facets, steady(400, convection_w_m2_k=10.0), power=power)[-1]
+
+    assert front == pytest.approx([290.0, 305.0], abs=0.02)  # 150 W/m2 over 10 W/m2/K
 
 
 def test_layers_pass_heat_as_resistances_in_series(layered):

@@ -16,7 +16,7 @@ ASPHALT = {"density_kg_m3": 2114.0, "specific_heat_j_kg_k": 920.0, "conductivity
 
 
 def launch(opencl, kernel, width, facets, materials, forcing, *, first=0, rows=None, weight=1.0,
-           step_s=STEP_S, lit=None, period=0):
+           step_s=STEP_S, lit=None, period=0, power=None):
     """Temperatures of shape (rows, facets); `width` facets a work-item."""
     context = opencl.context
     rows = len(forcing) if rows is None else rows
@@ -29,7 +29,8 @@ def launch(opencl, kernel, width, facets, materials, forcing, *, first=0, rows=N
     out = np.empty((rows, len(facets)), np.float32)
     target = cl.Buffer(context, cl.mem_flags.WRITE_ONLY, out.nbytes)
     kernel(opencl.queue, ((len(facets) + width - 1) // width,), None, span[0], *memory, sunlit,
-           target)
+           np.uint32(0 if power is None else power.shape[1]),
+           None if power is None else cl.Buffer(context, copy, hostbuf=power), target)
     cl.enqueue_copy(opencl.queue, out, target)
     return out
 
@@ -192,6 +193,29 @@ def test_the_mask_of_a_day_begins_anew_after_its_period(thermal, table, two_days
     two = thermal(*table, two_days, lit=day, period=96)
 
     assert (two == thermal(*table, two_days, lit=np.concatenate([day, day, day[:1]]))).all()
+
+
+def test_power_by_the_clock_is_that_of_the_facet_s_material(thermal):
+    facets, materials = one_facet(0.01, 0.5)
+    facets, materials = np.repeat(facets, 3), np.repeat(materials, 2)
+    facets["material"] = (0, 1, 0)
+    facets["stated_temperature_k"][2] = 281.0
+    power = np.zeros((400, 2), np.float32)
+    power[:, 1] = 150.0
+
+    last = thermal(facets, materials, steady_forcing(400, convection_w_m2_k=10.0), power=power)[-1]
+
+    assert last == pytest.approx([290.0, 305.0, 281.0], abs=1e-3)  # 150 W/m2 over 10 W/m2/K
+
+
+def test_power_goes_on_and_off_midway_between_two_steps(thermal):
+    facets, materials = one_facet(1e5 / (2114 * 920), 0.5)  # 1e5 J/m2/K and nothing exchanged
+    power = np.zeros((41, 1), np.float32)
+    power[10:20] = 100.0
+
+    last = thermal(facets, materials, steady_forcing(41), power=power)[-1, 0]
+
+    assert last == pytest.approx(290.0 + 100.0 * 10 * STEP_S / 1e5, abs=1e-2)
 
 
 def test_a_time_between_steps_is_linear(thermal, table, two_days):
