@@ -1,6 +1,7 @@
 #include "render_output.h"
 
 #include "quick_look.h"
+#include "render_sensor.h"
 #include "render_summary.h"
 
 #include <math.h>
@@ -206,6 +207,32 @@ out:
     return rc;
 }
 
+/* What the sensor makes of the radiance, if the scene says how. */
+static status write_sensor(const writing *w, device *dev, const image_header *header)
+{
+    status rc = STATUS_OK;
+    char name[512];
+    image *img = NULL;
+
+    if (!w->s->sensor.is_wanted) return STATUS_OK;
+    TRY(render_sensor_write(&img, w->folder, w->s, dev, w->cube, header));
+    for (uint32_t i = 0; i < w->s->band_count; i++) {
+        const image_plane *plane = image_plane_at(img, i);
+        const quick_look look = {.columns = image_columns(img),
+                                 .rows = image_rows(img),
+                                 .value = image_values(img, i),
+                                 .scene = w->s->name,
+                                 .time = w->time,
+                                 .plane = plane->name,
+                                 .unit = plane->unit};
+        if (!is_pictured(w, i)) continue;
+        TRY(quick_look_write(w->folder, file_name(name, w->s, plane->name, ".png"), &look));
+    }
+out:
+    image_free(img);
+    return rc;
+}
+
 static status write_files(writing *w, device *dev, double start)
 {
     status rc = STATUS_OK;
@@ -226,6 +253,7 @@ static status write_files(writing *w, device *dev, double start)
                             &header));
     TRY(image_finish(w->cube, &header));
     if (w->truth) TRY(image_finish(w->truth, &header));
+    TRY(write_sensor(w, dev, &header));
     TRY(render_summary_write(w->folder, file_name(name, w->s, "", ".json"), &summary));
     NEED(!*w->options->stop, STATUS_INTERRUPTED, "interrupted");
     TRY(output_folder_commit(w->folder));

@@ -9,8 +9,9 @@
 
 static void check_tables(scene_reader *reader)
 {
-    static const char *const known[] = {"name",    "site",     "weather", "atmosphere", "geometry",
-                                        "library", "material", "camera",  "band",       "render"};
+    static const char *const known[] = {"name",     "site",    "weather",  "atmosphere",
+                                        "geometry", "library", "material", "camera",
+                                        "band",     "render",  "sensor"};
     static const char *const needed[] = {"site", "atmosphere", "camera"};
     scene_table t = scene_table_open(reader, reader->root, "scene");
 
@@ -168,6 +169,7 @@ static void read_parts(scene_reader *reader)
     scene_read_camera(reader);
     scene_read_bands(reader);
     scene_read_render(reader);
+    scene_read_degradation(reader);
     scene_read_atmosphere(reader);
     check_bands(reader);
     if (placed) scene_read_weather(reader);
@@ -275,6 +277,7 @@ void scene_free(scene *s)
     free(s->material_of);
     for (uint32_t i = 0; i < s->band_count; i++) free_band(&s->bands[i]);
     free(s->bands);
+    psf_free(s->sensor.table);
     for (size_t i = 0; i < s->input_count; i++) {
         free(s->inputs[i].name);
         free(s->inputs[i].path);

@@ -6,6 +6,7 @@
 #include "../kernels/records.h"
 #include "atmosphere.h"
 #include "band.h"
+#include "degradation.h"
 #include "emissivity.h"
 #include "geometry.h"
 #include "layered.h"
@@ -60,6 +61,7 @@ typedef struct scene {
     view camera;
     uint32_t band_count;
     band *bands; /* shape (band_count) */
+    degradation sensor;
     bool thesis;
     scene_thermal thermal;
     double hemisphere_zenith_step_deg, hemisphere_azimuth_step_deg;

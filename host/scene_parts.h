@@ -14,6 +14,9 @@ void scene_read_camera(scene_reader *reader);
 void scene_read_bands(scene_reader *reader);
 void scene_read_render(scene_reader *reader);
 
+/* [sensor]; after camera and bands. */
+void scene_read_degradation(scene_reader *reader);
+
 /* [atmosphere]; after the bands. */
 void scene_read_atmosphere(scene_reader *reader);
 

@@ -174,6 +174,33 @@ RECORD_SIZE(band_record, 32);
 #define TRUTH_PLANES 11u
 #define SUN_PLANES 2u /* behind those: of the sun's history */
 
+/* A band of the detectors; radiances in the unit of its plane. */
+typedef struct detector_record {
+    uint seed, frame, band;
+    uint columns, count; /* detectors */
+    uint last_count;     /* 2^bits - 1; 0: not quantised */
+    float noise;         /* standard deviation */
+    float shot;          /* variance per radiance */
+    float fixed_gain;    /* standard deviations over the detectors: a share, a radiance */
+    float fixed_offset;
+    float periodic;                 /* amplitude */
+    float waves_across, waves_down; /* per detector */
+    float gain, offset;             /* count = gain x radiance + offset */
+    uint unused;
+} detector_record;
+RECORD_SIZE(detector_record, 64);
+
+/* How the pixels of a picture fall on detectors, see blur.cl. */
+typedef struct blur_record {
+    uint columns, rows; /* detectors */
+    uint step;          /* pixels of a detector, across and down */
+    uint picture_columns, picture_rows;
+    uint weight_columns, weight_rows;
+    int first_column, first_row;
+    uint unused[3];
+} blur_record;
+RECORD_SIZE(blur_record, 48);
+
 /* What stands in a plane where a pixel has no value. */
 #define NO_VALUE (-9999.0f)
 

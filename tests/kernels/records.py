@@ -37,3 +37,7 @@ RADIOMETRY = record("*columns *first_pixel *pixel_count *band_count *sample_coun
                     " *path_count path_zenith_first_deg path_zenith_step_deg *zenith_count"
                     " *azimuth_count zenith_step_deg azimuth_step_deg sun[3] *wants_parts *unused[3]")
 BAND = record("*first_sample *sample_count gain offset width_um *is_mean *unused[2]")
+DETECTOR = record("*seed *frame *band *columns *count *last_count noise shot fixed_gain fixed_offset"
+                  " periodic waves_across waves_down gain offset *unused")
+BLUR = record("*columns *rows *step *picture_columns *picture_rows *weight_columns *weight_rows"
+              " *first_column *first_row *unused[3]")

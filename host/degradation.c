@@ -1,0 +1,168 @@
+#include "degradation.h"
+
+#include "../kernels/records.h"
+#include "planck.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct degraded {
+    device *dev;
+    const degradation *how;
+    uint32_t picture_columns, picture_rows;
+    device_memory picture, detectors;
+};
+
+uint32_t degraded_columns(const degraded *d)
+{
+    return d->picture_columns / (uint32_t)d->how->step;
+}
+
+uint32_t degraded_rows(const degraded *d)
+{
+    return d->picture_rows / (uint32_t)d->how->step;
+}
+
+status degraded_open(degraded **out, device *dev, const degradation *how, uint32_t columns,
+                     uint32_t rows)
+{
+    status rc = STATUS_OK;
+    degraded *d = calloc(1, sizeof *d);
+
+    NEED(d, STATUS_MEMORY, "no memory for the sensor");
+    *d = (degraded){.dev = dev, .how = how, .picture_columns = columns, .picture_rows = rows};
+    TRY(device_allocate(dev, &d->picture, (size_t)columns * rows * sizeof(float), NULL));
+    TRY(device_allocate(dev, &d->detectors,
+                        (size_t)degraded_columns(d) * degraded_rows(d) * sizeof(float), NULL));
+    *out = d;
+    d = NULL;
+out:
+    degraded_free(d);
+    return rc;
+}
+
+void degraded_free(degraded *d)
+{
+    if (!d) return;
+    device_release(d->detectors);
+    device_release(d->picture);
+    free(d);
+}
+
+static status build_psf(psf **out, const degradation *how, double wavelength_um)
+{
+    status rc = STATUS_OK;
+    psf *p = NULL;
+
+    TRY(psf_detector(&p, how->step));
+    if (how->gaussian_fwhm_px > 0.0) TRY(psf_add_gaussian(p, how->gaussian_fwhm_px));
+    if (how->box_px > 0.0) TRY(psf_add_box(p, how->box_px));
+    if (how->motion_px > 0.0) TRY(psf_add_motion(p, how->motion_px, how->motion_deg));
+    if (how->airy_f_number > 0.0)
+        TRY(psf_add_airy(p, wavelength_um * how->airy_f_number / how->pixel_pitch_um));
+    if (how->table) TRY(psf_add(p, how->table));
+    *out = p;
+    p = NULL;
+out:
+    psf_free(p);
+    return rc;
+}
+
+static status run_blur(const degraded *d, const psf *p)
+{
+    status rc = STATUS_OK;
+    const size_t count = (size_t)p->columns * (size_t)p->rows;
+    float *weight = malloc(count * sizeof *weight);
+    device_memory weights = NULL;
+    const blur_record record = {.columns = degraded_columns(d),
+                                .rows = degraded_rows(d),
+                                .step = (uint32_t)d->how->step,
+                                .picture_columns = d->picture_columns,
+                                .picture_rows = d->picture_rows,
+                                .weight_columns = (uint32_t)p->columns,
+                                .weight_rows = (uint32_t)p->rows,
+                                .first_column = p->first_column,
+                                .first_row = p->first_row};
+
+    NEED(weight, STATUS_MEMORY, "no memory for a point spread function");
+    for (size_t i = 0; i < count; i++) weight[i] = (float)p->weight[i];
+    TRY(device_allocate(d->dev, &weights, count * sizeof *weight, weight));
+    TRY(device_run(d->dev, "blur", shape2(record.columns, record.rows), ARG(record), ARG(weights),
+                   ARG(d->picture), ARG(d->detectors)));
+out:
+    device_release(weights);
+    free(weight);
+    return rc;
+}
+
+static double band_radiance(const band_samples *s, double temperature_k, bool thesis)
+{
+    double sum = 0.0;
+
+    for (int i = 0; i < s->count; i++)
+        sum += s->weight_um[i] *
+               planck_spectral(planck_at(1e4 / s->wavenumber_cm1[i], thesis), temperature_k);
+    return sum;
+}
+
+/* Standard deviation of the noise that does not depend on the radiance, W m-2 sr-1 in band. */
+static double steady_noise(const degradation *how, const band_samples *s, bool thesis)
+{
+    const double half_k = 0.01; /* errs by 1e-9 */
+    const double slope = (band_radiance(s, how->netd_at_k + half_k, thesis) -
+                          band_radiance(s, how->netd_at_k - half_k, thesis)) /
+                         (2.0 * half_k);
+    const double read = how->electrons > 0.0 ? how->read_electrons / how->electrons : 0.0;
+
+    return hypot(hypot(how->netd_k * slope, how->nesr * s->width_um), read);
+}
+
+/* All in the unit of the plane: radiance in band over `unit`. */
+static detector_record record_of(const degraded *d, const band *b, const band_samples *s,
+                                 uint32_t index, bool thesis)
+{
+    const degradation *how = d->how;
+    const double unit = b->is_mean ? s->width_um : 1.0;
+    const double angle = how->periodic_deg * M_PI / 180.0;
+    const double waves = how->periodic > 0.0 ? how->step / how->periodic_px : 0.0;
+
+    return (detector_record){
+        .seed = how->seed,
+        .frame = how->frame,
+        .band = index,
+        .columns = degraded_columns(d),
+        .count = degraded_columns(d) * degraded_rows(d),
+        .last_count = how->bits > 0 ? (1u << how->bits) - 1u : 0u,
+        .noise = (float)(steady_noise(how, s, thesis) / unit),
+        .shot = (float)(how->electrons > 0.0 ? 1.0 / how->electrons / unit : 0.0),
+        .fixed_gain = (float)how->fixed_gain,
+        .fixed_offset = (float)(how->fixed_offset * s->width_um / unit),
+        .periodic = (float)(how->periodic * s->width_um / unit),
+        .waves_across = (float)(waves * cos(angle)),
+        .waves_down = (float)(-waves * sin(angle)),
+        .gain = (float)(b->gain * unit),
+        .offset = (float)b->offset,
+    };
+}
+
+status degraded_band(degraded *d, const band *b, uint32_t index, const atmosphere *air, bool thesis,
+                     const float *radiance, float *out)
+{
+    status rc = STATUS_OK;
+    const size_t pixels = (size_t)d->picture_columns * d->picture_rows;
+    band_samples samples = {0};
+    psf *p = NULL;
+
+    TRY(band_sample(&samples, b, air, thesis));
+    TRY(build_psf(&p, d->how, samples.centre_um));
+    TRY(device_upload(d->dev, d->picture, 0, pixels * sizeof *radiance, radiance));
+    TRY(run_blur(d, p));
+    const detector_record record = record_of(d, b, &samples, index, thesis);
+    TRY(device_run(d->dev, "detector", shape1(record.count), ARG(record), ARG(d->detectors),
+                   ARG(d->detectors)));
+    TRY(device_download(d->dev, d->detectors, 0, record.count * sizeof *out, out));
+out:
+    psf_free(p);
+    band_samples_free(&samples);
+    return rc;
+}

@@ -1,0 +1,49 @@
+/* Degradation: what a real sensor makes of the radiance that reaches it: spread, sampling, noise,
+ * counts. Thesis 4.0 item 9. Reproducible: random numbers are keyed by seed, band, detector and
+ * frame. */
+#ifndef DEGRADATION_H
+#define DEGRADATION_H
+
+#include "atmosphere.h"
+#include "band.h"
+#include "device.h"
+#include "psf.h"
+
+/* As [sensor] of a scene states it; 0 leaves a part out. */
+typedef struct degradation {
+    bool is_wanted;
+    uint32_t seed, frame;
+    double gaussian_fwhm_px, box_px;
+    double airy_f_number, pixel_pitch_um;
+    double motion_px, motion_deg;
+    psf *table; /* NULL: none */
+    int step;   /* pixels of a detector, across and down */
+    double netd_k, netd_at_k;
+    double nesr; /* W m-2 sr-1 um-1, mean over the band; so for the next but one */
+    double fixed_gain, fixed_offset;
+    double periodic, periodic_px, periodic_deg;
+    double electrons;      /* per W m-2 sr-1 in band */
+    double read_electrons; /* standard deviation */
+    int bits;              /* of a count; the count is the band's gain and offset */
+} degradation;
+
+typedef struct degraded degraded;
+
+/* Prepares a picture for all its bands. */
+status degraded_open(degraded **out, device *dev, const degradation *how, uint32_t columns,
+                     uint32_t rows);
+void degraded_free(degraded *d);
+
+/* Size in detectors: the picture's over the step, remainders are left out. */
+uint32_t degraded_columns(const degraded *d);
+uint32_t degraded_rows(const degraded *d);
+
+/* Degrades one band.
+ *   index     of the band, for its random numbers
+ *   thesis    Planck's law with the thesis' constants, bands as in band.h
+ *   radiance  shape (rows, columns) of the picture, W m-2 sr-1 or its mean per um
+ *   out       shape (rows, columns) of the detectors, the same unit */
+status degraded_band(degraded *d, const band *b, uint32_t index, const atmosphere *air, bool thesis,
+                     const float *radiance, float *out);
+
+#endif
