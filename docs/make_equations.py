@@ -14,6 +14,7 @@ MEANING = {
     "2.4-1": "radiance at the sensor from a specular facet",
     "2.4-2": "radiance at the sensor from a diffuse facet",
     "2.4-3": "radiance in band: spectrum times response, integrated",
+    "2.4-4": "transmission of the sun's broad band through a body",
     "2.4-5": "Planck's law",
     "2.4.1-1": "sky radiance between two zenith angles, at the lower azimuth",
     "2.4.1-2": "sky radiance between two zenith angles, at the upper azimuth",

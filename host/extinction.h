@@ -21,4 +21,7 @@ typedef struct extinction {
 status extinction_read(extinction **out, const char *path);
 void extinction_free(extinction *e);
 
+/* Extinction per m at a wavenumber: linear, the last value beyond the ends. */
+double extinction_at(const extinction *e, double wavenumber_cm1);
+
 #endif

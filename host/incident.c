@@ -162,15 +162,40 @@ void incident_free(incident *in)
     free(in);
 }
 
-status incident_run(const incident *in, const incident_pixels *p, device_memory out)
+/* What bodies change of it. */
+static status run_bodies(const incident *in, const incident_pixels *p, device_memory out)
 {
     const uint32_t cells = shape_factor_cell_count(in->grid);
     const device_memory cell = shape_factor_cells(in->grid);
+    const world_record world = ray_scene_world(in->scene);
+    const crossing_world bodies_around = bodies_world(p->bodies);
+    const device_memory nodes = ray_scene_nodes(in->scene), blocks = ray_scene_blocks(in->scene);
+    const device_memory body_nodes = bodies_nodes(p->bodies);
+    const device_memory body_blocks = bodies_blocks(p->bodies);
+    const device_memory medium = bodies_medium(p->bodies), levels = bodies_levels(p->bodies);
 
-    return device_run(ray_scene_device(in->scene), "incident", shape1(p->frame.pixel_count),
-                      ARG(p->frame), ARG(p->camera), ARG(cells), ARG(in->dome_count), ARG(cell),
-                      ARG(in->dome), ARG(in->tables.facet), ARG(in->tables.material),
-                      ARG(in->tables.temperature_k), ARG(in->facet_background), ARG(p->points.hit),
-                      ARG(p->background), ARG(p->background_lit), ARG(p->points.met),
-                      ARG(p->spectra), ARG(p->emissivity), ARG(out));
+    return device_run(
+        ray_scene_device(in->scene), "incident_bodies", shape1(p->frame.pixel_count), ARG(p->frame),
+        ARG(p->camera), ARG(cells), ARG(cell), ARG(world), ARG(bodies_around), ARG(nodes),
+        ARG(blocks), ARG(body_nodes), ARG(body_blocks), ARG(medium), ARG(levels),
+        ARG(in->tables.facet), ARG(in->tables.material), ARG(in->tables.temperature_k),
+        ARG(in->facet_background), ARG(p->points.hit), ARG(p->background), ARG(p->background_lit),
+        ARG(p->points.met), ARG(p->spectra), ARG(p->emissivity), ARG(p->extinction), ARG(out));
+}
+
+status incident_run(const incident *in, const incident_pixels *p, device_memory out)
+{
+    status rc = STATUS_OK;
+    const uint32_t cells = shape_factor_cell_count(in->grid);
+    const device_memory cell = shape_factor_cells(in->grid);
+
+    TRY(device_run(ray_scene_device(in->scene), "incident", shape1(p->frame.pixel_count),
+                   ARG(p->frame), ARG(p->camera), ARG(cells), ARG(in->dome_count), ARG(cell),
+                   ARG(in->dome), ARG(in->tables.facet), ARG(in->tables.material),
+                   ARG(in->tables.temperature_k), ARG(in->facet_background), ARG(p->points.hit),
+                   ARG(p->background), ARG(p->background_lit), ARG(p->points.met), ARG(p->spectra),
+                   ARG(p->emissivity), ARG(out)));
+    if (p->bodies) TRY(run_bodies(in, p, out));
+out:
+    return rc;
 }

@@ -3,6 +3,7 @@
 #ifndef HOST_INCIDENT_H
 #define HOST_INCIDENT_H
 
+#include "bodies.h"
 #include "geometry.h"
 #include "shape_factor.h"
 
@@ -26,6 +27,8 @@ typedef struct incident_pixels {
     shape_factor_points points;
     device_memory background, background_lit;
     device_memory spectra, emissivity;
+    const bodies *bodies;     /* NULL: none */
+    device_memory extinction; /* of bodies: see bodies_sample */
 } incident_pixels;
 
 /* Computes the radiance.

@@ -1,5 +1,6 @@
 #include "render.h"
 
+#include "bodies.h"
 #include "bvh.h"
 #include "incident.h"
 #include "ray_scene.h"
@@ -22,6 +23,7 @@ struct render {
     const scene *s;
     device *dev;
     ray_scene *rays;
+    bodies *bodies; /* NULL: none */
     shape_factor_grid *grid, *coarse_grid;
     bool is_coarse;
     spectra *bands;
@@ -32,7 +34,7 @@ struct render {
     facet_record *facet; /* shape (facet_count) */
     temperature *warmth;
     device_memory facets, facet_ids, materials;
-    device_memory spectrum_rows, emissivity_rows, band_records, ln_radiance;
+    device_memory spectrum_rows, emissivity_rows, extinction_rows, band_records, ln_radiance;
     render_plane *planes;
     size_t plane_count;
     render_stage stages[STAGE_LIMIT];
@@ -63,8 +65,12 @@ static status open_rays(render *r)
     const geometry *g = s->shape;
     const shape_factor_reading reading = s->thesis ? SHAPE_FACTOR_THESIS : SHAPE_FACTOR_COSINE;
     bvh *tree = NULL;
+    uint32_t(*corner)[4] = malloc(((size_t)g->facet_count + 1) * sizeof *corner);
 
-    TRY(bvh_build(&tree, g->facet_count, (const uint32_t(*)[4])g->corner,
+    NEED(corner, STATUS_MEMORY, "no memory for %u facets", g->facet_count);
+    bodies_leave_out(s, corner);
+    TRY(bodies_open(&r->bodies, r->dev, s));
+    TRY(bvh_build(&tree, g->facet_count, (const uint32_t(*)[4])corner,
                   (const float(*)[3])g->position));
     TRY(ray_scene_open(&r->rays, r->dev, tree));
     if (s->ground_material != RECORD_NONE)
@@ -76,6 +82,7 @@ static status open_rays(render *r)
     end_stage(r, "tree");
 out:
     bvh_free(tree);
+    free(corner);
     return rc;
 }
 
@@ -152,6 +159,9 @@ static status open_spectra(render *r)
     TRY(device_allocate(r->dev, &r->ln_radiance,
                         (size_t)s->band_count * BAND_TEMPERATURES * sizeof(float), NULL));
     TRY(upload_emissivity(r));
+    if (r->bodies)
+        TRY(bodies_sample(r->bodies, r->bands->wavenumber_cm1, r->bands->sample_count,
+                          &r->extinction_rows));
     TRY(device_run(r->dev, "band_temperature", shape2(BAND_TEMPERATURES, s->band_count),
                    ARG(r->bands->sample_count), ARG(r->spectrum_rows), ARG(r->band_records),
                    ARG(r->ln_radiance)));
@@ -239,6 +249,7 @@ void render_free(render *r)
     free(r->planes);
     device_release(r->ln_radiance);
     device_release(r->band_records);
+    device_release(r->extinction_rows);
     device_release(r->emissivity_rows);
     device_release(r->spectrum_rows);
     temperature_free(r->warmth);
@@ -250,6 +261,7 @@ void render_free(render *r)
     spectra_free(r->bands);
     shape_factor_free(r->coarse_grid);
     shape_factor_free(r->grid);
+    bodies_free(r->bodies);
     ray_scene_free(r->rays);
     free(r);
 }
@@ -287,6 +299,7 @@ typedef struct tile {
     shape_factor_points points;
     device_memory lit, history, temperature_k, background, background_hit, background_lit;
     device_memory incident; /* exact mode: spectra, shape (count, 2, samples) */
+    device_memory body_paths, direct, background_direct; /* with bodies: see crossing.cl */
     device_memory truth_planes, band_planes;
 } tile;
 
@@ -309,6 +322,12 @@ static status open_tile(tile *t, const render *r, uint32_t first, uint32_t count
     if (has_incident(r))
         TRY(device_allocate(r->dev, &t->incident, n * 2 * r->frame.sample_count * sizeof(float),
                             NULL));
+    if (r->bodies) {
+        TRY(device_allocate(r->dev, &t->body_paths,
+                            n * TRANSMISSION_PATHS * sizeof(transmission_path), NULL));
+        TRY(device_allocate(r->dev, &t->direct, n * sizeof(float), NULL));
+        TRY(device_allocate(r->dev, &t->background_direct, n * sizeof(float), NULL));
+    }
     TRY(device_allocate(r->dev, &t->truth_planes, n * (TRUTH_PLANES + SUN_PLANES) * sizeof(float),
                         NULL));
     TRY(device_allocate(r->dev, &t->band_planes, n * r->s->band_count * BAND_PLANES * sizeof(float),
@@ -321,6 +340,9 @@ static void free_tile(tile *t)
 {
     device_release(t->band_planes);
     device_release(t->truth_planes);
+    device_release(t->background_direct);
+    device_release(t->direct);
+    device_release(t->body_paths);
     device_release(t->incident);
     device_release(t->background_lit);
     device_release(t->background_hit);
@@ -356,6 +378,21 @@ out:
     return rc;
 }
 
+/* What stands on the pixels' ways to sensor, sun and background. */
+static status cross_bodies(const render *r, const tile *t, const radiometry_record *frame)
+{
+    const world_record world = ray_scene_world(r->rays);
+    const crossing_world around = bodies_world(r->bodies);
+    const device_memory nodes = bodies_nodes(r->bodies), blocks = bodies_blocks(r->bodies);
+    const device_memory medium = bodies_medium(r->bodies), levels = bodies_levels(r->bodies);
+
+    return device_run(r->dev, "crossing", shape1(t->count), ARG(*frame), ARG(r->camera), ARG(world),
+                      ARG(around), ARG(nodes), ARG(blocks), ARG(medium), ARG(levels),
+                      ARG(t->points.hit), ARG(t->background_hit), ARG(t->lit),
+                      ARG(t->background_lit), ARG(t->body_paths), ARG(t->direct),
+                      ARG(t->background_direct));
+}
+
 static bool wants_parts(const render *r, float *const *values)
 {
     for (size_t i = 0; i < r->plane_count; i++)
@@ -371,9 +408,12 @@ static status colour_tile(const render *r, const tile *t, float *const *values)
     frame.first_pixel = t->first;
     frame.pixel_count = t->count;
     frame.wants_parts = wants_parts(r, values);
+    if (r->bodies) TRY(cross_bodies(r, t, &frame));
+    const device_memory direct = r->bodies ? t->direct : t->lit;
+    const device_memory behind = r->bodies ? t->background_direct : t->background_lit;
     TRY(device_run(r->dev, "truth", shape1(t->count), ARG(frame), ARG(r->camera), ARG(r->facets),
                    ARG(r->facet_ids), ARG(r->materials), ARG(t->temperature_k), ARG(t->points.hit),
-                   ARG(t->background), ARG(t->lit), ARG(t->background_lit), ARG(t->truth_planes)));
+                   ARG(t->background), ARG(direct), ARG(behind), ARG(t->truth_planes)));
     if (has_incident(r)) {
         const incident_pixels pixels = {
             .frame = frame,
@@ -383,14 +423,17 @@ static status colour_tile(const render *r, const tile *t, float *const *values)
             .background_lit = t->background_lit,
             .spectra = r->spectrum_rows,
             .emissivity = r->emissivity_rows,
+            .bodies = r->bodies,
+            .extinction = r->extinction_rows,
         };
         TRY(incident_run(r->around, &pixels, t->incident));
     }
     TRY(device_run(r->dev, "radiometry", shape1(t->count), ARG(frame), ARG(r->camera),
                    ARG(r->facets), ARG(r->materials), ARG(t->temperature_k), ARG(t->points.hit),
                    ARG(t->background), ARG(t->lit), ARG(t->background_lit), ARG(r->spectrum_rows),
-                   ARG(r->emissivity_rows), ARG(t->incident), ARG(r->band_records),
-                   ARG(r->ln_radiance), ARG(t->band_planes)));
+                   ARG(r->emissivity_rows), ARG(t->incident), ARG(r->extinction_rows),
+                   ARG(t->body_paths), ARG(r->band_records), ARG(r->ln_radiance),
+                   ARG(t->band_planes)));
 out:
     return rc;
 }

@@ -47,7 +47,7 @@ static void check_facets(scene_reader *reader)
         const uint32_t k = g->material[i];
         if (k < 256 && told[k]) continue;
         const scene_material *m = &s->materials[s->material_of[k]];
-        if (g->stated_temperature_k[i] > 0.0f) continue;
+        if (g->stated_temperature_k[i] > 0.0f || m->medium != RECORD_NONE) continue;
         if (fixed ? m->temperature_k > 0.0 : g->thickness_m[i] > 0.0f || m->thickness_m > 0.0)
             continue;
         scene_fail(reader, NULL,
@@ -178,6 +178,7 @@ static void read_parts(scene_reader *reader)
     check_weather(reader);
     if (!s->shape || reader->failure_count > 0) return;
     check_facets(reader);
+    scene_check_media(reader);
     set_ground(reader);
     warn_about_facets(s);
 }
@@ -272,6 +273,7 @@ void scene_free(scene *s)
     for (uint32_t i = 0; i < s->material_count; i++) {
         free(s->materials[i].name);
         emissivity_free(s->materials[i].table);
+        extinction_free(s->materials[i].extinction);
     }
     free(s->materials);
     free(s->material_of);
@@ -305,8 +307,10 @@ uint32_t scene_emissivity_rows(const scene *s)
     return rows;
 }
 
+/* A body's facets are met by no ray: any temperature does. */
 static double stated_temperature_k(const scene *s, const scene_material *m, double of_facet_k)
 {
+    if (m->medium != RECORD_NONE) return (double)ZERO_CELSIUS_K;
     if (of_facet_k > 0.0 || s->thermal != SCENE_THERMAL_FIXED) return of_facet_k;
     return m->temperature_k;
 }

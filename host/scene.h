@@ -3,11 +3,12 @@
 #ifndef SCENE_H
 #define SCENE_H
 
-#include "../kernels/records.h"
+#include "../kernels/transmission.h"
 #include "atmosphere.h"
 #include "band.h"
 #include "degradation.h"
 #include "emissivity.h"
+#include "extinction.h"
 #include "geometry.h"
 #include "layered.h"
 #include "power.h"
@@ -30,9 +31,12 @@ typedef struct scene_material {
     emissivity *table;      /* NULL: grey */
     double grey_emissivity; /* at all angles and wavelengths; unused with a table */
     double thickness_m;     /* of facets that state none; 0: not stated */
-    double temperature_k;   /* for thermal fixed; 0: not stated */
+    double temperature_k;   /* for thermal fixed and of bodies; 0: not stated */
     bool two_sided;
     layered_matter layered;
+    uint32_t medium; /* index among the transmissive materials; RECORD_NONE: opaque */
+    extinction *extinction;
+    double grey_extinction_per_m; /* without a table */
     power_table power;
 } scene_material;
 
@@ -55,7 +59,9 @@ typedef struct scene {
     uint32_t material_count;
     scene_material *materials; /* shape (material_count) */
     uint32_t *material_of;     /* shape (shape->material_count), index into materials */
-    uint32_t ground_material;  /* index into materials; RECORD_NONE: no ground plane */
+    uint32_t medium_count;     /* transmissive materials */
+    uint32_t medium_material[TRANSMISSION_MEDIA]; /* index into materials */
+    uint32_t ground_material; /* index into materials; RECORD_NONE: no ground plane */
     double ground_thickness_m;
     double ground_z_m; /* ENU: of the largest level facet of its material, else the lowest point */
     view camera;

@@ -9,10 +9,10 @@
 /* What one [[material]] states; not-a-number, NULL and -1: nothing. */
 typedef struct stated_material {
     const toml_node *node;
-    const char *name, *emissivity_path;
+    const char *name, *emissivity_path, *extinction_path;
     double emissivity, specular_share, temperature_k, thickness_cm;
     double density_kg_m3, specific_heat_j_kg_k, conductivity_w_m_k;
-    double solar_absorptance, exposed_area;
+    double solar_absorptance, exposed_area, extinction_per_km;
     bool two_sided;
     layered_matter layered;
     power_table power;
@@ -42,12 +42,15 @@ static stated_material read_stated(scene_reader *reader, const toml_node *node)
                          .conductivity_w_m_k = NAN,
                          .solar_absorptance = NAN,
                          .exposed_area = NAN,
+                         .extinction_per_km = NAN,
                          .layered = layered_matter_default()};
 
     scene_table_require(&t, "name", "the name that the geometry gives it");
     scene_table_string(&t, "name", &m.name);
     scene_table_number(&t, "emissivity", 0.0, 1.0, &m.emissivity);
     scene_table_file(&t, "emissivity_file", &m.emissivity_path);
+    scene_table_number(&t, "extinction_per_km", 0.0, 1e6, &m.extinction_per_km);
+    scene_table_file(&t, "extinction_file", &m.extinction_path);
     scene_table_number(&t, "specular_share", 0.0, 1.0, &m.specular_share);
     scene_table_number(&t, "temperature_k", 1.0, 6000.0, &m.temperature_k);
     scene_table_number(&t, "thickness_cm", 1e-4, 1e4, &m.thickness_cm);
@@ -161,7 +164,6 @@ static void read_emissivity(const material_sources *from, scene_material *m, con
     scene_reader *reader = from->reader;
     const char *path = NULL;
 
-    m->record.emissivity_angles = 1;
     if (stated && stated->emissivity_path) {
         path = stated->emissivity_path;
     } else if (stated && !isnan(stated->emissivity)) {
@@ -179,6 +181,20 @@ static void read_emissivity(const material_sources *from, scene_material *m, con
     }
     if (path && scene_took(reader, emissivity_read(&m->table, path)))
         m->record.emissivity_angles = EMISSIVITY_ANGLES;
+}
+
+/* The scene's file, the scene's number, the library's file. */
+static void read_extinction(const material_sources *from, scene_material *m, const material *known,
+                            const stated_material *stated)
+{
+    const toml_node *node = stated ? stated->node : from->library_node;
+    const char *path = stated ? stated->extinction_path : NULL;
+    const double per_km = stated ? stated->extinction_per_km : (double)NAN;
+
+    if (!path && isnan(per_km) && known && strcmp(known->extinction_file, "null") != 0)
+        path = scene_add_input(from->reader, from->library_node, from->library_folder,
+                               known->extinction_file);
+    scene_read_medium(from->reader, m, node, path, per_km);
 }
 
 static void check_material(scene_reader *reader, const scene_material *m,
@@ -211,7 +227,9 @@ static void add_material(const material_sources *from, const char *name, const m
 
     m->name = strdup(name);
     m->record = make_record(from, known, stated);
-    read_emissivity(from, m, known, stated);
+    read_extinction(from, m, known, stated);
+    m->record.emissivity_angles = 1;
+    if (m->medium == RECORD_NONE) read_emissivity(from, m, known, stated);
     m->layered = stated ? stated->layered : layered_matter_default();
     if (stated) {
         m->thickness_m = isnan(stated->thickness_cm) ? 0.0 : .01 * stated->thickness_cm;
@@ -219,7 +237,8 @@ static void add_material(const material_sources *from, const char *name, const m
         m->two_sided = stated->two_sided;
         m->power = stated->power;
     }
-    check_material(from->reader, m, stated, stated ? stated->node : from->library_node);
+    if (m->medium == RECORD_NONE)
+        check_material(from->reader, m, stated, stated ? stated->node : from->library_node);
 }
 
 /* Finds a material by code, or by name where the code is -1; adds it at its first use.

@@ -26,6 +26,15 @@ void scene_read_geometry(scene_reader *reader);
 /* The keys of a [[material]] that thermal = "layered" uses; without them `out` is left as it is. */
 void scene_read_layered(scene_table *t, layered_matter *out);
 
+/* Makes a material transmissive where it has an extinction: a file, or a number unless that is
+ * not-a-number. Extinction per m, at most TRANSMISSION_MEDIA materials.
+ *   node   what the message about a material too many names */
+void scene_read_medium(scene_reader *reader, scene_material *m, const toml_node *node,
+                       const char *path, double per_km);
+
+/* Checks that bodies are closed, face outwards and have a temperature; when all else is read. */
+void scene_check_media(scene_reader *reader);
+
 /* The power by the clock of a [[material]]; `out` is empty. */
 void scene_read_power(scene_table *t, power_table *out);
 

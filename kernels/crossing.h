@@ -7,17 +7,8 @@
 #ifndef CROSSING_H
 #define CROSSING_H
 
+#include "crossing_world.h"
 #include "ray.h"
-#include "transmission.h"
-
-/* What rays need to know of the bodies besides their triangles. */
-typedef struct crossing_world {
-    float low[3], high[3];              /* box of all */
-    float altitude_m;                   /* of z 0, for the air's temperature */
-    uint level_count;                   /* of the air */
-    float stated_k[TRANSMISSION_MEDIA]; /* a material's temperature; 0: the air's at its middle */
-} crossing_world;
-RECORD_SIZE(crossing_world, 48);
 
 /* assumed: what absorbs in the air falls off by e in this height. */
 #define CROSSING_AIR_HEIGHT_M 2000.0f

@@ -7,6 +7,8 @@ typedef struct spectra_tables {
     global const float *rows;       /* shape (rows, sample_count): SPECTRA_... of records.h */
     global const float *emissivity; /* shape (rows, sample_count) */
     global const float *incident;   /* of this pixel: shape (2, sample_count); NULL: thesis mode */
+    global const float *extinction; /* shape (TRANSMISSION_MEDIA, sample_count); NULL: no bodies */
+    global const transmission_path *bodies; /* of this pixel: shape (TRANSMISSION_PATHS), strided */
 } spectra_tables;
 
 static spectrum load_row(spectra_tables tables, radiometry_record frame, uint row, uint block)
@@ -17,6 +19,58 @@ static spectrum load_row(spectra_tables tables, radiometry_record frame, uint ro
 static global const float *sky_rows(spectra_tables tables, radiometry_record frame)
 {
     return tables.rows + (size_t)(SPECTRA_PATHS + 2u * frame.path_count) * frame.sample_count;
+}
+
+static transmission_path load_path(spectra_tables tables, radiometry_record frame, uint path)
+{
+    return tables.bodies[(size_t)path * frame.pixel_count];
+}
+
+/* E_S tau1, and tau1c or tau_SB of bodies on the sun's way. */
+static spectrum load_sun(spectra_tables tables, radiometry_record frame, uint path, uint block)
+{
+    const spectrum sun = load_row(tables, frame, SPECTRA_SUN, block);
+
+    if (!tables.extinction) return sun;
+    const transmission_path bodies = load_path(tables, frame, path);
+    return sun * transmission_along(tables.extinction, frame.sample_count, &bodies, block);
+}
+
+/* What is seen through the bodies on a way, and they themselves. */
+static spectrum see_through(spectrum radiance, spectra_tables tables, radiometry_record frame,
+                            uint path, uint block)
+{
+    if (!tables.extinction) return radiance;
+    const transmission_path bodies = load_path(tables, frame, path);
+    return transmission_seen(radiance, tables.extinction, frame.sample_count, &bodies,
+                             load_row(tables, frame, SPECTRA_PLANCK_FIRST, block),
+                             load_row(tables, frame, SPECTRA_PLANCK_SECOND, block), block);
+}
+
+/* Puts the bodies on the sensor's way into its transmission and radiance. As printed (eq. 2.4-1) all
+ * of the air's radiance stands before them; exact mode has them where they are in the air. */
+static void put_bodies(spectra_tables tables, radiometry_record frame, uint block, spectrum *tau2,
+                       spectrum *path)
+{
+    const transmission_path bodies = load_path(tables, frame, TRANSMISSION_CAMERA);
+    const spectrum first = load_row(tables, frame, SPECTRA_PLANCK_FIRST, block);
+    const spectrum second = load_row(tables, frame, SPECTRA_PLANCK_SECOND, block);
+    spectrum through = (spectrum)1.0f, sum = (spectrum)0.0f, before = (spectrum)0.0f;
+
+    for (uint i = 0; i < TRANSMISSION_MEDIA && bodies.length_m[i] > 0.0f; i++) {
+        const spectrum own =
+            transmission_part(tables.extinction, frame.sample_count, &bodies, i, block);
+        const float share = frame.thesis ? 0.0f : bodies.air_share[i];
+        const spectrum air = frame.thesis ? (spectrum)1.0f : pow(*tau2, (spectrum)share);
+        const spectrum upto = frame.thesis ? *path : transmission_air(*path, *tau2, air, share);
+        sum +=
+            through * (upto - before) +
+            through * air * (1.0f - own) * planck_radiance(first, second, bodies.temperature_k[i]);
+        before = upto;
+        through *= own;
+    }
+    *path = sum + through * (*path - before);
+    *tau2 *= through;
 }
 
 /* What reaches a surface from above, each still to be multiplied by (1 - e): the sky by its share,
@@ -31,13 +85,15 @@ static spectrum mean_background(const pixel_state *pixel, spectra_tables tables,
 {
     const spectrum first = load_row(tables, frame, SPECTRA_PLANCK_FIRST, block);
     const spectrum second = load_row(tables, frame, SPECTRA_PLANCK_SECOND, block);
-    const spectrum sun = load_row(tables, frame, SPECTRA_SUN, block);
+    const spectrum sun = load_sun(tables, frame, TRANSMISSION_BACKGROUND_SUN, block);
 
     *emissivity =
         lookup_spectrum(tables.emissivity, frame.sample_count, pixel->background_emissivity, block);
-    return background_radiance(
+    const spectrum radiance = background_radiance(
         *emissivity, planck_radiance(first, second, pixel->background_temperature_k),
         sun_on_surface(sun, pixel->background_sunlit, pixel->background_sun_cosine));
+    if (pixel->interaction == INTERACTION_DIFFUSE) return radiance;
+    return see_through(radiance, tables, frame, TRANSMISSION_BACKGROUND, block);
 }
 
 static from_above look_above(const pixel_state *pixel, spectra_tables tables,
@@ -76,16 +132,17 @@ static void add_target(band_sums *sums, const pixel_state *pixel, spectra_tables
     const spectrum black_body = planck_radiance(
         load_row(tables, frame, SPECTRA_PLANCK_FIRST, block),
         load_row(tables, frame, SPECTRA_PLANCK_SECOND, block), pixel->temperature_k);
-    const spectrum sun = sun_on_surface(load_row(tables, frame, SPECTRA_SUN, block), pixel->sunlit,
-                                        pixel->sun_cosine);
+    const spectrum sun = sun_on_surface(load_sun(tables, frame, TRANSMISSION_SUN, block),
+                                        pixel->sunlit, pixel->sun_cosine);
     const spectrum emissivity = lookup_spectrum(tables.emissivity, row, pixel->emissivity, block);
     global const float *paths = tables.rows + (size_t)SPECTRA_PATHS * row;
-    const spectrum tau2 = lookup_spectrum(paths, row, pixel->path, block);
-    const spectrum path =
+    spectrum tau2 = lookup_spectrum(paths, row, pixel->path, block);
+    spectrum path =
         lookup_spectrum(paths + (size_t)frame.path_count * row, row, pixel->path, block);
     spectrum behind = (spectrum)0.0f;
     const from_above above = look_above(pixel, tables, frame, block, &behind);
 
+    if (tables.extinction) put_bodies(tables, frame, block, &tau2, &path);
     sums->radiance += weight * sensor_radiance(surface_radiance(emissivity, black_body, sun,
                                                                 above.sky + above.background),
                                                tau2, path);
@@ -112,8 +169,9 @@ static band_sums sum_band(const pixel_state *pixel, spectra_tables tables, radio
         const uint block = band.first_sample / SPECTRUM_WIDTH + k;
         const spectrum weight = load_row(tables, frame, SPECTRA_WEIGHT, block);
         if (pixel->interaction == INTERACTION_MISSED)
-            sums.radiance +=
-                weight * sky_radiance(sky_rows(tables, frame), frame, pixel->sky, block);
+            sums.radiance += weight * see_through(sky_radiance(sky_rows(tables, frame), frame,
+                                                               pixel->sky, block),
+                                                  tables, frame, TRANSMISSION_CAMERA, block);
         else
             add_target(&sums, pixel, tables, frame, block, weight);
     }
@@ -153,6 +211,8 @@ static pixel_state pixel_look(radiometry_record frame, camera_record camera, uin
  * spectra: shape (rows, sample_count), see SPECTRA_...; emissivity: shape (rows, sample_count)
  * incident: shape (pixel_count, 2, sample_count), see incident.cl; NULL in thesis mode, which takes
  *   the mean background instead
+ * extinction: shape (TRANSMISSION_MEDIA, sample_count), per m; bodies: see crossing.cl; both NULL in
+ *   a scene without transmissive bodies
  * bands: band_record; ln_radiance: shape (band_count, BAND_TEMPERATURES)
  * planes: shape (band_count, BAND_PLANES, pixel_count): radiance W m-2 sr-1 (or its mean per um),
  *   counts, apparent temperature C, emissivity, background emissivity; NO_VALUE where there is none;
@@ -164,6 +224,7 @@ kernel void radiometry(const radiometry_record frame, const camera_record camera
                        global const background_record *background, global const float *sunlit,
                        global const float *background_sunlit, global const float *spectra,
                        global const float *emissivity, global const float *incident,
+                       global const float *extinction, global const transmission_path *bodies,
                        global const band_record *bands, global const float *ln_radiance,
                        global float *planes)
 {
@@ -171,7 +232,8 @@ kernel void radiometry(const radiometry_record frame, const camera_record camera
     if (pixel >= frame.pixel_count) return;
 
     const spectra_tables tables = {
-        spectra, emissivity, frame.thesis ? 0 : incident + (size_t)pixel * 2u * frame.sample_count};
+        spectra, emissivity, frame.thesis ? 0 : incident + (size_t)pixel * 2u * frame.sample_count,
+        extinction, bodies + pixel};
     const pixel_state state =
         pixel_look(frame, camera, pixel, hit[pixel], background[pixel], sunlit[pixel],
                    background_sunlit[pixel], facets, materials, temperature_k[pixel]);

@@ -3,7 +3,7 @@
 #ifndef RADIOMETRY_H
 #define RADIOMETRY_H
 
-#include "spectrum.h"
+#include "transmission.h"
 
 /* eq. 2.4-2, first term: e_T B(T_T). */
 static inline spectrum emitted_radiance(spectrum emissivity, spectrum black_body)

@@ -39,6 +39,17 @@ static inline spectrum transmission_through(spectrum radiance, spectrum transmis
     return radiance * transmission + (1.0f - transmission) * black_body;
 }
 
+/* eq. 2.4-4: tau1c in the broad band of sunlight, through all bodies on a way.
+ *   extinction   per material, per m */
+static inline float transmission_broad_band(const float *extinction, const transmission_path *path)
+{
+    float depth = 0.0f;
+
+    for (uint i = 0; i < TRANSMISSION_MEDIA; i++)
+        depth += path->length_m[i] * extinction[path->medium[i]];
+    return exp(-depth);
+}
+
 /* Radiance of the share of the air that has the transmission `of_the_share`, by that of the whole
  * way; the air's source counts as the same all along.
  *   path, transmission   of the whole way
@@ -50,5 +61,43 @@ static inline spectrum transmission_air(spectrum path, spectrum transmission, sp
 
     return path * (absorbed > (spectrum)1e-5f ? (1.0f - of_the_share) / absorbed : (spectrum)share);
 }
+
+#ifdef __OPENCL_C_VERSION__
+
+/* One material's part of a way.
+ *   extinction   shape (TRANSMISSION_MEDIA, row_length), per m */
+static inline spectrum transmission_part(global const float *extinction, uint row_length,
+                                         const transmission_path *path, uint i, uint block)
+{
+    return transmission_of(spectrum_load(extinction + (size_t)path->medium[i] * row_length, block),
+                           path->length_m[i]);
+}
+
+/* Transmission of all bodies on a way. */
+static inline spectrum transmission_along(global const float *extinction, uint row_length,
+                                          const transmission_path *path, uint block)
+{
+    spectrum out = (spectrum)1.0f;
+
+    for (uint i = 0; i < TRANSMISSION_MEDIA && path->length_m[i] > 0.0f; i++)
+        out *= transmission_part(extinction, row_length, path, i, block);
+    return out;
+}
+
+/* What comes through all bodies on a way, and from them; the nearest is the last that it meets.
+ *   first, second   of Planck's law */
+static inline spectrum transmission_seen(spectrum radiance, global const float *extinction,
+                                         uint row_length, const transmission_path *path,
+                                         spectrum first, spectrum second, uint block)
+{
+    for (uint i = TRANSMISSION_MEDIA; i-- > 0;)
+        if (path->length_m[i] > 0.0f)
+            radiance = transmission_through(
+                radiance, transmission_part(extinction, row_length, path, i, block),
+                planck_radiance(first, second, path->temperature_k[i]));
+    return radiance;
+}
+
+#endif
 
 #endif

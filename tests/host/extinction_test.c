@@ -45,6 +45,19 @@ static void the_printed_cloud_is_read_per_metre(void **state)
     extinction_free(e);
 }
 
+static void extinction_is_linear_between_rows_and_constant_beyond_them(void **state)
+{
+    extinction *e = NULL;
+
+    (void)state;
+    assert_int_equal(extinction_read(&e, text_file_with(table, "", "")), STATUS_OK);
+    assert_near(extinction_at(e, 950.0), 0.025977480, 1e-12);
+    assert_near(extinction_at(e, 900.0), .5 * (e->per_m[389] + e->per_m[390]), 1e-12);
+    assert_near(extinction_at(e, 5e4), 0.020470046, 1e-12);
+    assert_near(extinction_at(e, 100.0), e->per_m[395], 1e-12);
+    extinction_free(e);
+}
+
 static void a_wrong_row_is_refused_at_its_line(void **state)
 {
     static const struct {
@@ -72,6 +85,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_printed_cloud_is_read_per_metre),
+        cmocka_unit_test(extinction_is_linear_between_rows_and_constant_beyond_them),
         cmocka_unit_test(a_wrong_row_is_refused_at_its_line),
     };
 

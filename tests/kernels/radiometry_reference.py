@@ -1,10 +1,11 @@
 """The equations of thesis 2.4 in float64 numpy, one pixel at a time, and random pixels to try them on.
 
-Written from eq. 2.4-1 and 2.4-2 with tau_TB = tau2c = 1 (nothing transmissive in the scene)."""
+Written from eq. 2.4-1 and 2.4-2."""
 import numpy as np
 import records
 from records import DIFFUSE, MISSED, NONE, SPECULAR_BACKGROUND, SPECULAR_SKY
 
+CAMERA, SUN_WAY, BACKGROUND, BACKGROUND_SUN = range(4)  # TRANSMISSION_...
 FIRST, SECOND = 1.191042972397188e8, 1.438776877e4  # CODATA 2018: 2 h c^2, h c / k
 
 
@@ -61,6 +62,40 @@ class Reference:
         return unit(c["corner"].astype(np.float64) + (column + 0.5) * c["across"].astype(np.float64)
                     + (row + 0.5) * c["down"].astype(np.float64))
 
+    def bodies(self, way, pixel):
+        """Transmission, temperature and share of the air before them, the nearest first."""
+        if self.case.extinction is None:
+            return []
+        path = self.case.body_paths[way, pixel]
+        beta = self.case.extinction.astype(np.float64)
+        return [(np.exp(-beta[path["medium"][i]] * path["length_m"][i]),
+                 float(path["temperature_k"][i]), float(path["air_share"][i]))
+                for i in range(4) if path["length_m"][i] > 0]
+
+    def transmission(self, way, pixel):
+        return np.prod([tau for tau, _, _ in self.bodies(way, pixel)], axis=0)
+
+    def seen_through(self, radiance, way, pixel):
+        for tau, kelvin, _ in reversed(self.bodies(way, pixel)):
+            radiance = radiance * tau + (1 - tau) * planck(self.wavelength_um, kelvin)
+        return radiance
+
+    def sensor_path(self, tau2, path, pixel):
+        """tau2 tau2c, and what air and bodies send. Exact mode has the bodies between shares of air
+        of one source: its radiance from there on is path (1 - tau2^rest) / (1 - tau2)."""
+        bodies = self.bodies(CAMERA, pixel)
+        through = tau2 * self.transmission(CAMERA, pixel)
+        if self.frame["thesis"]:
+            return through, path + self.seen_through(0.0, CAMERA, pixel)
+        radiance, behind = np.zeros_like(tau2), 1.0
+        for tau, kelvin, share in reversed(bodies):  # from the target to the sensor
+            air = tau2 ** (behind - share)
+            radiance = radiance * air + path / (1 - tau2) * (1 - air)
+            radiance = radiance * tau + (1 - tau) * planck(self.wavelength_um, kelvin)
+            behind = share
+        air = tau2**behind
+        return through, radiance * air + path / (1 - tau2) * (1 - air)
+
     def background(self, pixel):
         """e_B B(T_B) + E_S/pi tau1 tau_SB cos(theta_B) (1 - e_B), and e_B."""
         b = self.case.background[pixel]
@@ -70,6 +105,7 @@ class Reference:
         cosine = max(0.0, normal @ self.frame["sun"].astype(np.float64))
         lit = float(self.case.background_sunlit[pixel])
         sun = self.rows[records.SUN] / np.pi * lit * cosine
+        sun = sun * self.transmission(BACKGROUND_SUN, pixel)
         return e * planck(self.wavelength_um, float(b["mean_temperature_k"])) + sun * (1 - e), e
 
     def pixel(self, pixel):
@@ -77,8 +113,9 @@ class Reference:
         case, hit, b = self.case, self.case.hit[pixel], self.case.background[pixel]
         ray, share = self.ray(pixel), float(b["shape_factor"])
         if hit["facet"] == NONE:
-            self.parts = [0, 0, 0, 0, self.sky(ray), 0]
-            return MISSED, self.sky(ray), None, None
+            sky = self.seen_through(self.sky(ray), CAMERA, pixel)
+            self.parts = [0, 0, 0, 0, sky, 0]
+            return MISSED, sky, None, None
         material = case.materials[case.facets["material"][hit["facet"]]]
         normal = hit["normal"].astype(np.float64)
         kind = DIFFUSE
@@ -89,17 +126,20 @@ class Reference:
         sky = self.rows[records.SKY] if kind == DIFFUSE else self.sky(
             ray - 2 * (normal @ ray) * normal)
         behind, e_b = (0.0, None) if b["facet"] == NONE else self.background(pixel)
+        if kind == SPECULAR_BACKGROUND:
+            behind = self.seen_through(behind, BACKGROUND, pixel)
         cosine = max(0.0, normal @ self.frame["sun"].astype(np.float64))
         sun = self.rows[records.SUN] / np.pi * float(case.sunlit[pixel]) * cosine
+        sun = sun * self.transmission(SUN_WAY, pixel)
         above = share * sky, (1 - share) * behind
         if not self.frame["thesis"]:  # exact mode takes what incident.cl made
             above = case.incident[pixel].astype(np.float64)
         zenith = (angle_deg(-ray[2]) - self.frame["path_zenith_first_deg"])
         place = zenith / self.frame["path_zenith_step_deg"]
-        tau2 = between(self.tau2, place)
+        tau2, path = self.sensor_path(between(self.tau2, place), between(self.path, place), pixel)
         self.parts = [
             tau2 * e * planck(self.wavelength_um, float(case.pixel_k[pixel])), tau2 * (1 - e) * sun,
-            tau2 * (1 - e) * above[0], tau2 * (1 - e) * above[1], between(self.path, place), tau2]
+            tau2 * (1 - e) * above[0], tau2 * (1 - e) * above[1], path, tau2]
         return kind, sum(self.parts[:5]), e, e_b
 
     def part_planes(self, pixel):
@@ -127,9 +167,10 @@ class Reference:
 
 
 class Case:
-    """Random pixels of every kind. Half of the materials are specular, half have 91 angles."""
+    """Random pixels of every kind. Half of the materials are specular, half have 91 angles.
+    bodies: transmissive ones stand on the ways of most pixels."""
 
-    def __init__(self, seed, count, thesis):
+    def __init__(self, seed, count, thesis, bodies=False):
         self.random = np.random.default_rng(seed)
         self.count = count
         self.set_bands()
@@ -137,6 +178,9 @@ class Case:
         self.set_materials()
         self.set_spectra()
         self.set_pixels()
+        self.extinction = self.body_paths = None
+        if bodies:
+            self.set_bodies()
 
     def set_bands(self):
         edges = [(8.0, 14.0, 30), (0.5, 0.9, 11), (3.0, 5.0, 16)]
@@ -220,3 +264,13 @@ class Case:
         self.sunlit, self.background_sunlit = random.random((2, n)).astype(np.float32)
         self.pixel_k = random.uniform(240, 340, n).astype(np.float32)
         self.incident = random.uniform(0.5, 9, (n, 2, len(self.weight))).astype(np.float32)
+
+    def set_bodies(self):
+        random, shape = self.random, (4, self.count)
+        self.extinction = random.uniform(1e-4, 1e-2, (4, len(self.weight))).astype(np.float32)
+        self.body_paths = np.zeros(shape, records.TRANSMISSION_PATH)
+        some = np.arange(4) < random.integers(0, 4, shape)[..., None]  # none to three of four
+        self.body_paths["length_m"] = np.where(some, random.uniform(1, 300, (*shape, 4)), 0)
+        self.body_paths["temperature_k"] = random.uniform(220, 300, (*shape, 4))
+        self.body_paths["air_share"] = np.sort(random.random((*shape, 4)))
+        self.body_paths["medium"] = random.permuted(np.broadcast_to(np.arange(4), (*shape, 4)), axis=2)

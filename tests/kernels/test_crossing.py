@@ -12,8 +12,7 @@ import tree
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import cases  # noqa: E402
 
-PATH = records.record("length_m[4] temperature_k[4] air_share[4] *medium[4]")
-BODIES = records.record("low[3] high[3] altitude_m *level_count stated_k[4]")
+BODIES = records.record("low[3] high[3] altitude_m *level_count stated_k[4] broad_band_per_m[4]")
 LEVELS = np.float32([[300, 290], [1300, 280], [2300, 285]])
 BODY = """
 #include "crossing.h"
@@ -47,7 +46,7 @@ def paths(opencl):
         of_facet = np.broadcast_to(np.uint32(medium), len(mesh[0]))
         buffers = [probe.copy(opencl, a) for a in (nodes, blocks, of_facet, LEVELS, rays)]
         return probe.launch(opencl, program.probe, len(rays), [bodies[0], *buffers],
-                            (len(rays),), PATH)
+                            (len(rays),), records.TRANSMISSION_PATH)
 
     return run
 

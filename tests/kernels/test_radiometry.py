@@ -34,16 +34,18 @@ def run(opencl, case, options=""):
         tables.append(ln_table(case.wavelength_um[at], case.weight[at])[1])
     arrays = [case.facets, case.materials, case.pixel_k, case.hit, case.background,
               case.sunlit, case.background_sunlit, case.spectra, case.emissivity, case.incident,
+              case.extinction, case.body_paths,
               case.bands, np.array(tables, np.float32)]
-    arguments = [case.frame[0], case.camera[0], *(probe.copy(opencl, a) for a in arrays)]
+    arguments = [case.frame[0], case.camera[0], *(a if a is None else probe.copy(opencl, a) for a in arrays)]
     shape = (len(case.bands), records.BAND_PLANES, len(case.hit))
     return probe.launch(opencl, opencl.build("radiometry", options), len(case.hit), arguments, shape)
 
 
-@pytest.fixture(scope="module", params=[0, 1], ids=["exact", "thesis"])
+@pytest.fixture(scope="module", params=[(0, False), (1, False), (0, True), (1, True)],
+                ids=["exact", "thesis", "exact with bodies", "thesis with bodies"])
 def pixels(request):
     """Random pixels, what they are, and shape (pixels, bands, 3) of the reference's planes."""
-    case = Case(4, COUNT, request.param)
+    case = Case(4, COUNT, *request.param)
     kinds, planes = zip(*(Reference(case).planes(i) for i in range(COUNT)))
     return case, np.array(kinds), np.array(planes)
 
@@ -112,9 +114,10 @@ def test_pixels_do_not_depend_on_tiles(opencl):
 
 
 @pytest.mark.parametrize("options", WIDTHS)
+@pytest.mark.parametrize("bodies", [False, True], ids=["clear", "bodies"])
 @pytest.mark.parametrize("thesis", [0, 1], ids=["exact", "thesis"])
-def test_parts_of_the_radiance_equal_double_precision_and_add_up(opencl, thesis, options):
-    case = Case(6, 120, thesis)
+def test_parts_of_the_radiance_equal_double_precision_and_add_up(opencl, thesis, bodies, options):
+    case = Case(6, 120, thesis, bodies)
     case.frame["wants_parts"] = 1
     expected = np.array([Reference(case).part_planes(i) for i in range(120)]).transpose(1, 2, 0)
 
@@ -125,34 +128,47 @@ def test_parts_of_the_radiance_equal_double_precision_and_add_up(opencl, thesis,
     assert parts[:, :5].sum(1) == pytest.approx(planes[:, 0], rel=2e-6)  # five float32 sums
 
 
-# notes: monochromatic pixels computed by an independent script. The two specular ones of that table
-# wait for transmissive bodies: one has tau2c .9, the other tau_TB .9.
+# notes: monochromatic pixels computed by an independent script.
+CLEAR = dict(tau1c=1, e_b=1, t_b=300, tau_sb=1, cos_b=0, tau_tb=1, t_tbe=300, tau2c=1, t_ste=300)
 FOUR_PIXELS = {
     "diffuse at 10 um": dict(
         um=10, t_t=305, e_t=.93, e_s=.21, tau1=.70, cos_s=.80, f=.75, sky=1.902, e_b=.96, t_b=298,
         cos_b=.55, tau2=.62, path=2.403, expected=8.760984),
+    "specular to the sky at 4 um": dict(
+        um=4, t_t=300, e_t=.70, e_s=9.6, tau1=.85, tau1c=.5, cos_s=.60, f=1, sky=.42, tau2=.80,
+        tau2c=.9, path=.07, t_ste=275, expected=.7171581),
+    "specular to a background at 10 um": dict(
+        um=10, t_t=290, e_t=.30, e_s=.21, tau1=.70, cos_s=.40, f=0, sky=0, e_b=.94, t_b=315,
+        tau_sb=.8, cos_b=.30, tau_tb=.9, t_tbe=285, tau2=.62, path=2.403, expected=8.896212),
     "diffuse at .55 um": dict(
         um=.55, t_t=300, e_t=.60, e_s=1860, tau1=.62, cos_s=.75, f=.90, sky=55, e_b=.80, t_b=300,
         cos_b=.40, tau2=.78, path=18, expected=120.2558),
 }
+# Bodies of 100 m, whose transmission makes their extinction.
 ONE_PIXEL = """
 const float target = planck_radiance(in0[i], in1[i], in2[i]);
 const float behind = planck_radiance(in0[i], in1[i], in8[i]);
-const float background = background_radiance(in7[i], behind, sun_on_surface(in4[i], 1.0f, in9[i]));
-const float surface = surface_radiance(in3[i], target, sun_on_surface(in4[i], 1.0f, in5[i]),
+const float before = planck_radiance(in0[i], in1[i], in16[i]);
+const float body = planck_radiance(in0[i], in1[i], in18[i]);
+const float tau1c = transmission_of(in13[i], 100.0f), tau_sb = transmission_of(in14[i], 100.0f);
+const float tau_tb = transmission_of(in15[i], 100.0f), tau2c = transmission_of(in17[i], 100.0f);
+const float background = transmission_through(
+    background_radiance(in7[i], behind, sun_on_surface(in4[i] * tau_sb, 1.0f, in9[i])), tau_tb, before);
+const float surface = surface_radiance(in3[i], target, sun_on_surface(in4[i] * tau1c, 1.0f, in5[i]),
                                        radiance_from_above(in6[i], in12[i], background));
-out[0] = sensor_radiance(surface, in10[i], in11[i]);
+out[0] = transmission_through(sensor_radiance(surface, in10[i], 0.0f), tau2c, body) + in11[i];
 """
 
 
 @pytest.mark.parametrize("name", FOUR_PIXELS)
 def test_the_terms_make_up_the_pixel(opencl, name):
-    p = types.SimpleNamespace(**FOUR_PIXELS[name])
+    p = types.SimpleNamespace(**{**CLEAR, **FOUR_PIXELS[name]})
     # Thesis, below eq. 2.4-5: c, h, k.
     c, h, k = 2.99792458e8, 6.626176e-34, 1.380662e-23
     first, second = 2e24 * h * c**2 / p.um**5, 1e6 * h * c / (k * p.um)
     values = [first, second, p.t_t, p.e_t, p.e_s * p.tau1, p.cos_s, p.f, p.e_b, p.t_b, p.cos_b,
-              p.tau2, p.path, p.sky]
+              p.tau2, p.path, p.sky, *-np.log([p.tau1c, p.tau_sb, p.tau_tb]) / 100, p.t_tbe,
+              -np.log(p.tau2c) / 100, p.t_ste]
 
     radiance = probe.probe(opencl, "radiometry.h", ONE_PIXEL, [[v] for v in values],
                            options="-DSPECTRUM_WIDTH=1")[0, 0]

@@ -1,0 +1,179 @@
+#include "bodies.h"
+
+#include "bvh.h"
+#include "scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct bodies {
+    device *dev;
+    const scene *s;
+    crossing_world world;
+    device_memory node, block, medium, level;
+};
+
+static bool is_body(const scene *s, uint32_t facet)
+{
+    return s->materials[s->material_of[s->shape->material[facet]]].medium != RECORD_NONE;
+}
+
+/* Corners of one kind of facets; the others lose their area. */
+static void keep(const scene *s, bool wanted, uint32_t (*out)[4])
+{
+    for (uint32_t i = 0; i < s->shape->facet_count; i++) {
+        static const uint32_t nowhere[4] = {0, 0, 0, UINT32_MAX};
+        const uint32_t *from = is_body(s, i) == wanted ? s->shape->corner[i] : nowhere;
+        memcpy(out[i], from, sizeof nowhere);
+    }
+}
+
+void bodies_leave_out(const scene *s, uint32_t (*out)[4])
+{
+    keep(s, false, out);
+}
+
+static status upload_tree(bodies *b)
+{
+    status rc = STATUS_OK;
+    const geometry *g = b->s->shape;
+    bvh *tree = NULL;
+    uint32_t(*corner)[4] = malloc(((size_t)g->facet_count + 1) * sizeof *corner);
+
+    NEED(corner, STATUS_MEMORY, "no memory for %u facets", g->facet_count);
+    keep(b->s, true, corner);
+    TRY(bvh_build(&tree, g->facet_count, (const uint32_t(*)[4])corner,
+                  (const float(*)[3])g->position));
+    const bvh_tables *tables = bvh_look(tree);
+    TRY(device_allocate(b->dev, &b->node, tables->node_count * sizeof *tables->node, tables->node));
+    TRY(device_allocate(b->dev, &b->block, tables->block_count * sizeof *tables->block,
+                        tables->block));
+    memcpy(b->world.low, tables->low, sizeof b->world.low);
+    memcpy(b->world.high, tables->high, sizeof b->world.high);
+out:
+    bvh_free(tree);
+    free(corner);
+    return rc;
+}
+
+static status upload_media(bodies *b)
+{
+    status rc = STATUS_OK;
+    const scene *s = b->s;
+    const geometry *g = s->shape;
+    uint32_t *medium = malloc(((size_t)g->facet_count + 1) * sizeof *medium);
+
+    NEED(medium, STATUS_MEMORY, "no memory for %u facets", g->facet_count);
+    for (uint32_t i = 0; i < g->facet_count; i++)
+        medium[i] = s->materials[s->material_of[g->material[i]]].medium;
+    TRY(device_allocate(b->dev, &b->medium, g->facet_count * sizeof *medium, medium));
+    for (uint32_t i = 0; i < s->medium_count; i++) {
+        const scene_material *m = &s->materials[s->medium_material[i]];
+        b->world.stated_k[i] = (float)m->temperature_k;
+        b->world.broad_band_per_m[i] =
+            (float)(m->extinction ? m->extinction->broad_band_per_m : m->grey_extinction_per_m);
+    }
+out:
+    free(medium);
+    return rc;
+}
+
+/* assumed: z 0 is where the levels begin. */
+static status upload_levels(bodies *b)
+{
+    status rc = STATUS_OK;
+    const atmosphere *air = b->s->air;
+    const size_t count = (size_t)air->level_count;
+    float(*level)[2] = calloc(count + 1, sizeof *level);
+
+    NEED(level, STATUS_MEMORY, "no memory for the levels of the air");
+    for (size_t i = 0; i < count; i++) {
+        level[i][0] = (float)air->level_altitude_m[i];
+        level[i][1] = (float)air->level_temperature_k[i];
+    }
+    b->world.level_count = (uint32_t)count;
+    b->world.altitude_m = level[0][0] + (float)b->s->shape->origin_m[2];
+    TRY(device_allocate(b->dev, &b->level, (count + 1) * sizeof *level, level));
+out:
+    free(level);
+    return rc;
+}
+
+status bodies_open(bodies **out, device *dev, const scene *s)
+{
+    status rc = STATUS_OK;
+    bodies *b = NULL;
+
+    *out = NULL;
+    if (s->medium_count == 0) return STATUS_OK;
+    b = calloc(1, sizeof *b);
+    NEED(b, STATUS_MEMORY, "no memory for transmissive bodies");
+    b->dev = dev;
+    b->s = s;
+    TRY(upload_tree(b));
+    TRY(upload_media(b));
+    TRY(upload_levels(b));
+    *out = b;
+    b = NULL;
+out:
+    bodies_free(b);
+    return rc;
+}
+
+void bodies_free(bodies *b)
+{
+    if (!b) return;
+    device_release(b->level);
+    device_release(b->medium);
+    device_release(b->block);
+    device_release(b->node);
+    free(b);
+}
+
+crossing_world bodies_world(const bodies *b)
+{
+    return b->world;
+}
+
+device_memory bodies_nodes(const bodies *b)
+{
+    return b->node;
+}
+
+device_memory bodies_blocks(const bodies *b)
+{
+    return b->block;
+}
+
+device_memory bodies_medium(const bodies *b)
+{
+    return b->medium;
+}
+
+device_memory bodies_levels(const bodies *b)
+{
+    return b->level;
+}
+
+status bodies_sample(const bodies *b, const double *wavenumber_cm1, uint32_t count,
+                     device_memory *out)
+{
+    status rc = STATUS_OK;
+    const size_t values = (size_t)TRANSMISSION_MEDIA * count;
+    float *rows = calloc(values + 1, sizeof *rows);
+
+    NEED(rows, STATUS_MEMORY, "no memory for the extinction of bodies");
+    for (uint32_t m = 0; m < b->s->medium_count; m++) {
+        const scene_material *material = &b->s->materials[b->s->medium_material[m]];
+        for (uint32_t i = 0; i < count; i++)
+            rows[(size_t)m * count + i] =
+                (float)(material->extinction
+                            ? extinction_at(material->extinction, wavenumber_cm1[i])
+                            : material->grey_extinction_per_m);
+    }
+    TRY(device_allocate(b->dev, out, values * sizeof *rows, rows));
+out:
+    free(rows);
+    return rc;
+}

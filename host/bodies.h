@@ -1,0 +1,34 @@
+/* Bodies: the transmissive bodies of a scene on a device, in a tree of their own. Thesis 2.4.3. */
+#ifndef BODIES_H
+#define BODIES_H
+
+#include "../kernels/crossing_world.h"
+#include "device.h"
+
+struct scene;
+
+typedef struct bodies bodies;
+
+/* Builds the tree; a scene without transmissive materials has none: *out is NULL. Scene and device
+ * must outlive it. */
+status bodies_open(bodies **out, device *dev, const struct scene *s);
+void bodies_free(bodies *b);
+
+/* Fills the facets' corners for the tree of what is opaque: those of bodies lose their area.
+ *   out   shape (facet_count) */
+void bodies_leave_out(const struct scene *s, uint32_t (*out)[4]);
+
+/* What rays need of it. */
+crossing_world bodies_world(const bodies *b);
+device_memory bodies_nodes(const bodies *b);
+device_memory bodies_blocks(const bodies *b);
+device_memory bodies_medium(const bodies *b); /* uint32, per facet: its material's row */
+device_memory bodies_levels(const bodies *b); /* float, shape (level_count, 2): m, K */
+
+/* Samples the extinction of all materials, linear in wavenumber, the last value beyond its ends.
+ *   wavenumber_cm1   shape (count)
+ *   out              float, shape (TRANSMISSION_MEDIA, count), per m */
+status bodies_sample(const bodies *b, const double *wavenumber_cm1, uint32_t count,
+                     device_memory *out);
+
+#endif

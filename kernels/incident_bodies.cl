@@ -1,0 +1,136 @@
+#include "crossing.h"
+#include "surroundings.h"
+
+/* Opaque geometry, and bodies. */
+typedef struct both_trees {
+    const world_record *world;
+    global const bvh_node *nodes;
+    global const bvh_block *blocks;
+    const crossing_world *bodies;
+    global const bvh_node *body_nodes;
+    global const bvh_block *body_blocks;
+    global const uint *medium;
+    global const float *level;
+} both_trees;
+
+/* The tables of spectra that a ray reads. */
+typedef struct body_spectra {
+    global const float *rows, *emissivity, *extinction;
+} body_spectra;
+
+/* One ray from a surface: its weight, what it met, and the bodies on its way and on the sun's. */
+typedef struct body_ray {
+    float weight;
+    uint facet; /* RECORD_NONE: the sky */
+    sky_lookup sky;
+    incident_facet seen;
+    transmission_path way, sun;
+} body_ray;
+
+static transmission_path cross(const both_trees *trees, const ray *r)
+{
+    return crossing_path(trees->bodies, trees->body_nodes, trees->body_blocks, trees->medium,
+                         trees->level, r);
+}
+
+/* Casts a ray again. */
+static body_ray look(const both_trees *trees, around from, radiometry_record frame,
+                     const hit_record *at, const float *direction, float weight, float lit)
+{
+    ray r = ray_leaving(trees->world, at->point, at->normal, direction);
+    body_ray out = {.weight = weight};
+    const hit_record met = hemisphere_record(&r, ray_closest(trees->nodes, trees->blocks, &r),
+                                             trees->world, trees->blocks);
+
+    out.facet = met.facet;
+    r.limit = met.facet == RECORD_NONE ? INFINITY : met.range_m;
+    out.way = cross(trees, &r);
+    if (met.facet == RECORD_NONE) {
+        out.sky = sky_find(frame, direction[0], direction[1], direction[2]);
+        return out;
+    }
+    out.seen = see_facet(from, frame, met.facet, weight, lit, direction);
+    if (out.seen.sun > 0.0f) {
+        const ray towards_sun = ray_leaving(trees->world, met.point, met.normal, frame.sun);
+        out.sun = cross(trees, &towards_sun);
+    }
+    return out;
+}
+
+/* Adds what bodies change of one ray to every sample. */
+static void add_change(const body_ray *r, radiometry_record frame, body_spectra tables,
+                       global float *out)
+{
+    const uint row = frame.sample_count;
+    global const float *sky = tables.rows + (size_t)(SPECTRA_PATHS + 2u * frame.path_count) * row;
+
+    for (uint block = 0; block < row / SPECTRUM_WIDTH; block++) {
+        const spectrum first = spectrum_load(tables.rows + SPECTRA_PLANCK_FIRST * row, block);
+        const spectrum second = spectrum_load(tables.rows + SPECTRA_PLANCK_SECOND * row, block);
+        spectrum before, after;
+        if (r->facet == RECORD_NONE) {
+            before = after = sky_radiance(sky, frame, r->sky, block);
+        } else {
+            const spectrum sun = spectrum_load(tables.rows + SPECTRA_SUN * row, block);
+            const spectrum diffuse = spectrum_load(tables.rows + SPECTRA_SKY * row, block);
+            const spectrum e = lookup_spectrum(tables.emissivity, row, r->seen.emissivity, block);
+            const spectrum black = planck_radiance(first, second, r->seen.temperature_k);
+            const spectrum left = sun * transmission_along(tables.extinction, row, &r->sun, block);
+            before = incident_radiance(&r->seen, e, black, sun, diffuse);
+            after = incident_radiance(&r->seen, e, black, left, diffuse);
+        }
+        after = transmission_seen(after, tables.extinction, row, &r->way, first, second, block);
+        spectrum_store(spectrum_load(out, block) + r->weight * (after - before), out, block);
+    }
+}
+
+/* Changes what reaches every pixel's surface by what transmissive bodies take and give on the ways of
+ * its rays, and on the sun's to the facets that they met.
+ * Launch: (frame.pixel_count).
+ * As incident.cl, and the trees of what is opaque (nodes, blocks) and of bodies; medium, level: see
+ * crossing.cl; extinction: (TRANSMISSION_MEDIA, sample_count), per m; out: as incident.cl wrote it */
+kernel void incident_bodies(
+    const radiometry_record frame, const camera_record camera, const uint cell_count,
+    global const float *cell, const world_record world, const crossing_world bodies,
+    global const bvh_node *nodes, global const bvh_block *blocks, global const bvh_node *body_nodes,
+    global const bvh_block *body_blocks, global const uint *medium, global const float *level,
+    global const facet_record *facets, global const material_record *materials,
+    global const float *temperature_k, global const background_record *facet_background,
+    global const hit_record *hit, global const background_record *background,
+    global const float *background_lit, global const uint *met, global const float *spectra,
+    global const float *emissivity, global const float *extinction, global float *out)
+{
+    const uint pixel = get_global_id(0);
+    if (pixel >= frame.pixel_count) return;
+    const hit_record at = hit[pixel];
+    if (at.facet == RECORD_NONE) return;
+
+    const around from = {facets, materials, temperature_k, facet_background};
+    const both_trees trees = {&world,     nodes,       blocks, &bodies,
+                              body_nodes, body_blocks, medium, level};
+    const body_spectra tables = {spectra, emissivity, extinction};
+    const uint kind = pixel_interaction(materials[facets[at.facet].material], background[pixel]);
+    const uint is_diffuse = kind == INTERACTION_DIFFUSE;
+    const uint rays = is_diffuse ? cell_count : 1u;
+    const diffuse_view view =
+        look_around(at.normal, is_diffuse ? rays : 0u, cell, met + pixel, frame.pixel_count);
+    global float *from_sky = out + (size_t)pixel * 2u * frame.sample_count;
+    float direction[3], ray_in[3];
+
+    pixel_ray(camera, frame.columns, frame.first_pixel + pixel, ray_in);
+    for (int k = 0; k < 3; k++)
+        direction[k] = ray_in[k] - 2.0f * pixel_dot(ray_in, at.normal) * at.normal[k];
+    for (uint c = 0; c < rays; c++) {
+        float weight = 1.0f, lit = background_lit[pixel];
+        if (is_diffuse) {
+            const uint word = met[(size_t)c * frame.pixel_count + pixel];
+            weight = cell_direction(&view.axes, cell, c, direction);
+            weight *= direction[2] > 0.0f ? view.above : view.below;
+            lit = word != RECORD_NONE && (word & HEMISPHERE_LIT) ? 1.0f : 0.0f;
+        }
+        const body_ray r = look(&trees, from, frame, &at, direction, weight, lit);
+        if (r.way.length_m[0] > 0.0f || r.sun.length_m[0] > 0.0f)
+            add_change(&r, frame, tables,
+                       r.facet == RECORD_NONE ? from_sky : from_sky + frame.sample_count);
+    }
+}
