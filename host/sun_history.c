@@ -88,9 +88,10 @@ status sun_history_trace(const sun_history *history, const ray_scene *scene, dev
     const world_record world = ray_scene_world(scene);
     const device_memory nodes = ray_scene_nodes(scene), blocks = ray_scene_blocks(scene);
 
-    return device_run(history->dev, "sun_history", shape2(count, history->day.word_count),
-                      ARG(count), ARG(history->day), ARG(world), ARG(nodes), ARG(blocks),
-                      ARG(facets), ARG(history->sun), ARG(hit), ARG(out_lit));
+    return device_run(history->dev, "sun_history",
+                      device_ray_shape(history->dev, count, history->day.word_count), ARG(count),
+                      ARG(history->day), ARG(world), ARG(nodes), ARG(blocks), ARG(facets),
+                      ARG(history->sun), ARG(hit), ARG(out_lit));
 }
 
 status sun_history_times(const sun_history *history, uint32_t count, uint32_t first_plane,

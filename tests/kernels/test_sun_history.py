@@ -44,7 +44,8 @@ def trace(opencl, world, sun, hits, normal=UP, two_sided=0):
     facets["normal"], facets["two_sided"] = normal, two_sided
     arguments = [np.uint32(len(hits)), a_day()[0], world.world[0], world.nodes, world.blocks,
                  *(world.copy(a) for a in (facets, sun, hits))]
-    words = probe.launch(opencl, opencl.build("sun_history"), (len(hits), WORDS), arguments,
+    kernel = opencl.build("sun_history", f"-DRAY_LANES={world.lanes}")
+    words = probe.launch(opencl, kernel, (-(-len(hits) // world.lanes), WORDS), arguments,
                          (len(hits), WORDS), np.uint32)
     return (words[:, :, None] >> np.arange(32) & 1).reshape(len(hits), -1)
 
@@ -77,6 +78,16 @@ def test_every_step_is_what_the_sun_of_that_step_alone_tells(opencl):
     assert lit.any() and not lit[:, sun[:, 2] > 0].all()
     for slot in range(SLOTS):
         assert (lit[:, slot] == world.sunlight(sun[slot, :3], hits)).all()
+
+
+def test_packets_and_single_rays_tell_the_same(opencl):
+    packets, single = tower(opencl), tower(opencl)
+    single.lanes = 1
+    random = np.random.default_rng(4)
+    hits = points(np.c_[random.uniform(-15, 15, (203, 2)), np.zeros(203)], UP)
+
+    assert (trace(opencl, packets, suns(40.0), hits)
+            == trace(opencl, single, suns(40.0), hits)).all()
 
 
 def test_no_sun_shines_at_night_or_on_a_missed_pixel(opencl):
