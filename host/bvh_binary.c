@@ -1,8 +1,13 @@
 #include "bvh_binary.h"
 
+#include <pthread.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 enum { BINS = 32, HEURISTIC_DEPTH = 64 };
+
+/* Subtrees of fewer items are not worth a thread. */
+enum { THREAD_ITEMS = 1 << 14 };
 
 /* Steps through a node cost as much as a test of one block. */
 static const float fork_cost = 1.0f;
@@ -29,10 +34,16 @@ typedef struct split {
 
 typedef struct builder {
     bvh_fork *fork;
-    uint32_t fork_count;
     bvh_item *item;
     bool even;
+    uint32_t thread_depth; /* above it the right subtree has a thread of its own */
 } builder;
+
+/* A subtree to build: its root's place among the forks, its items, and how many forks it got. */
+typedef struct subtree {
+    const builder *b;
+    uint32_t fork, first, count, depth, fork_count;
+} subtree;
 
 static const box empty_box = {{1e30f, 1e30f, 1e30f}, {-1e30f, -1e30f, -1e30f}};
 
@@ -166,35 +177,73 @@ static uint32_t choose(const builder *b, const box *bounds, const scale *s, bvh_
     return best.axis < 0 ? count / 2 : partition(&best, s, item, count);
 }
 
-static void build_fork(builder *b, uint32_t first, uint32_t count, uint32_t depth)
-{
-    bvh_fork *fork = &b->fork[b->fork_count++];
-    scale s;
-    const box bounds = measure(b->item + first, count, &s);
-    const uint32_t left = choose(b, &bounds, &s, b->item + first, count, depth);
+static void *build_subtree(void *argument);
 
-    *fork = (bvh_fork){.first = first, .count = count};
+/* Builds both sides, together where that pays. What they hold does not hang on it: a subtree of n
+ * items keeps to 2 n - 1 places. */
+static void build_sides(subtree *left, subtree *right)
+{
+    pthread_t thread;
+    const bool together = left->depth <= left->b->thread_depth && left->count > THREAD_ITEMS &&
+                          right->count > THREAD_ITEMS &&
+                          pthread_create(&thread, NULL, build_subtree, right) == 0;
+
+    build_subtree(left);
+    if (together)
+        pthread_join(thread, NULL);
+    else
+        build_subtree(right);
+}
+
+static void *build_subtree(void *argument)
+{
+    subtree *t = argument;
+    const builder *b = t->b;
+    bvh_fork *fork = &b->fork[t->fork];
+    bvh_item *item = b->item + t->first;
+    scale s;
+    const box bounds = measure(item, t->count, &s);
+    const uint32_t border = choose(b, &bounds, &s, item, t->count, t->depth);
+
+    *fork = (bvh_fork){.first = t->first, .count = t->count};
     for (int k = 0; k < 3; k++) {
         fork->low[k] = bounds.low[k];
         fork->high[k] = bounds.high[k];
     }
-    if (left == 0) return;
-    build_fork(b, first, left, depth + 1);
-    fork->right = b->fork_count;
-    build_fork(b, first + left, count - left, depth + 1);
+    t->fork_count = 1;
+    if (border > 0) {
+        const uint32_t depth = t->depth + 1;
+        subtree left = {b, t->fork + 1, t->first, border, depth, 0};
+        subtree right = {b, t->fork + 2 * border, t->first + border, t->count - border, depth, 0};
+        fork->right = right.fork;
+        build_sides(&left, &right);
+        t->fork_count += left.fork_count + right.fork_count;
+    }
+    return NULL;
+}
+
+/* Deep enough for twice as many threads as processors. */
+static uint32_t find_thread_depth(void)
+{
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    uint32_t depth = 0;
+
+    while (processors > 1 && 1L << depth < 2 * processors && depth < 8) depth++;
+    return depth;
 }
 
 status bvh_binary_build(bvh_fork **out_fork, uint32_t *out_count, bvh_item *item, uint32_t count,
                         bool even)
 {
     status rc = STATUS_OK;
-    builder b = {.item = item, .even = even};
+    builder b = {.item = item, .even = even, .thread_depth = find_thread_depth()};
+    subtree all = {.b = &b, .count = count};
 
     b.fork = malloc((2 * (size_t)count - 1) * sizeof *b.fork);
     NEED(b.fork, STATUS_MEMORY, "no memory for a tree over %u triangles", count);
-    build_fork(&b, 0, count, 0);
+    build_subtree(&all);
     *out_fork = b.fork;
-    *out_count = b.fork_count;
+    *out_count = all.fork_count;
 out:
     return rc;
 }

@@ -17,17 +17,19 @@ typedef struct bvh_item {
     uint32_t unused; /* 32 bytes: two to a cache line */
 } bvh_item;
 
-/* A node; its left child is the next node of the array. */
+/* A node; its left child is the next of the array. */
 typedef struct bvh_fork {
     float low[3], high[3];
     uint32_t right;        /* index of the right child; 0: a leaf */
     uint32_t first, count; /* items */
 } bvh_fork;
 
-/* Builds the tree over `count` >= 1 items, which are reordered so that every node's are adjacent.
+/* Builds the tree over `count` >= 1 items, which are reordered so that every node's are adjacent. All
+ * processors work on it; the tree does not hang on their number.
  *   even       halves the items at every node instead of asking the heuristic: no path is then
  *              longer than 28 nodes
- *   out_fork   shape (out_count), node 0 the root, (out_count + 1) / 2 leaves; the caller frees it
+ *   out_fork   node 0 the root; out_count nodes, (out_count + 1) / 2 of them leaves, with unused
+ *              places between them; the caller frees it
  * A leaf has at most BVH_BLOCK_SIZE items. Fails with STATUS_MEMORY. */
 status bvh_binary_build(bvh_fork **out_fork, uint32_t *out_count, bvh_item *item, uint32_t count,
                         bool even);
