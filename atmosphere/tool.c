@@ -6,13 +6,12 @@
 #include <stdio.h>
 #include <string.h>
 
-int tool_read(int argc, char **argv, int makes, tool_options *out)
+int tool_read(int argc, char **argv, int known, tool_options *out)
 {
-    static const struct option options[] = {{"output", required_argument, NULL, 'o'},
-                                            {"keep-decks", required_argument, NULL, 'k'},
-                                            {"time", required_argument, NULL, 't'},
-                                            {"help", no_argument, NULL, 'h'},
-                                            {0}};
+    static const struct option options[] = {
+        {"output", required_argument, NULL, 'o'}, {"keep-decks", required_argument, NULL, 'k'},
+        {"time", required_argument, NULL, 't'},   {"plot", required_argument, NULL, 'p'},
+        {"help", no_argument, NULL, 'h'},         {0}};
     int option;
 
     *out = (tool_options){0};
@@ -21,10 +20,12 @@ int tool_read(int argc, char **argv, int makes, tool_options *out)
         if (option == 'h') return TOOL_HELP;
         if (option == 'o')
             out->output = optarg;
-        else if (option == 'k' && makes)
+        else if (option == 'k' && (known & TOOL_KEEP_DECKS))
             out->keep_decks = optarg;
-        else if (option == 't' && makes)
+        else if (option == 't' && (known & TOOL_TIME))
             out->time = optarg;
+        else if (option == 'p' && (known & TOOL_PLOT))
+            out->plot = optarg;
         else
             return tool_misuse(argv[0], "'%s' %s", argv[optind - 1],
                                option == ':' ? "needs a value" : "is no option");

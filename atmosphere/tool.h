@@ -21,12 +21,16 @@ typedef struct tool_options {
     const char *output;     /* -o; NULL: not stated */
     const char *keep_decks; /* --keep-decks; NULL: not stated */
     const char *time;       /* --time; NULL: not stated */
+    const char *plot;       /* --plot; NULL: not stated */
     int first, count;       /* of the arguments in argv */
 } tool_options;
 
+/* Options that a command knows beside --output and --help. */
+enum { TOOL_TIME = 1, TOOL_KEEP_DECKS = 2, TOOL_PLOT = 4 };
+
 /* Reads options. Returns 0, TOOL_HELP, or TOOL_USAGE after it has said what is wrong.
- *   makes   the command knows --time and --keep-decks */
-int tool_read(int argc, char **argv, int makes, tool_options *out);
+ *   known   a sum of the above */
+int tool_read(int argc, char **argv, int known, tool_options *out);
 
 /* Writes a container where the name ends in .radc, else text. */
 status tool_write_database(const atmosphere *air, const char *path);

@@ -130,7 +130,7 @@ out:
 int tool_make(int argc, char **argv)
 {
     tool_options options;
-    const int misuse = tool_read(argc, argv, 1, &options);
+    const int misuse = tool_read(argc, argv, TOOL_TIME | TOOL_KEEP_DECKS, &options);
 
     if (misuse == TOOL_HELP) fputs(help, stdout);
     if (misuse) return misuse == TOOL_HELP ? 0 : misuse;

@@ -1,12 +1,17 @@
-#include "atmosphere.h"
+#include "database_plot.h"
 #include "tool.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static const char help[] = "usage: radsig-atmosphere show FILE.rad\n"
-                           "\n"
-                           "Prints what a radiance database, text or container, holds.\n";
+static const char help[] =
+    "usage: radsig-atmosphere show FILE.rad [--plot STEM]\n"
+    "\n"
+    "Prints what a radiance database, text or container, holds.\n"
+    "\n"
+    "  --plot STEM   draws STEM_sun.png, STEM_tau.png, STEM_path.png, STEM_sky.png by\n"
+    "                wavelength, STEM_emitted.png and STEM_scattered.png, the sky by\n"
+    "                direction: zenith in the middle, north on top\n";
 
 /* The mean over the wavelengths, each row standing for its part of the range. */
 static double mean(const atmosphere *a, const double *values)
@@ -56,7 +61,7 @@ static void print_means(const atmosphere *a)
     }
 }
 
-static status run(const char *path)
+static status run(const char *path, const char *plot)
 {
     status rc = STATUS_OK;
     atmosphere *a = NULL;
@@ -65,6 +70,7 @@ static status run(const char *path)
     fputs(a->header, stdout);
     print_grids(a);
     print_means(a);
+    if (plot) TRY(database_plot_write(a, plot));
 out:
     atmosphere_free(a);
     return rc;
@@ -73,11 +79,11 @@ out:
 int tool_show(int argc, char **argv)
 {
     tool_options options;
-    const int misuse = tool_read(argc, argv, 0, &options);
+    const int misuse = tool_read(argc, argv, TOOL_PLOT, &options);
 
     if (misuse == TOOL_HELP) fputs(help, stdout);
     if (misuse) return misuse == TOOL_HELP ? 0 : misuse;
     if (options.count != 1) return tool_misuse("show", "needs one radiance database");
-    if (options.output) return tool_misuse("show", "writes no file");
-    return tool_end("show", run(argv[options.first]));
+    if (options.output) return tool_misuse("show", "writes no file but --plot STEM");
+    return tool_end("show", run(argv[options.first], options.plot));
 }

@@ -185,7 +185,13 @@ static status plot(const thermal_request *request, const weather *w, const float
     double *time_h = values, *surface_c = values + w->count, *air_c = values + 2 * w->count;
     const curve_line lines[] = {{"air", air_c, {120, 120, 120}},
                                 {request->material, surface_c, {200, 60, 20}}};
-    const curve c = {request->material, "C", time_h, w->count, lines, 2};
+    const curve c = {.title = request->material,
+                     .unit = "C",
+                     .x_unit = "h",
+                     .x = time_h,
+                     .count = w->count,
+                     .line = lines,
+                     .line_count = 2};
 
     NEED(values, STATUS_MEMORY, "no memory to draw %zu temperatures", w->count);
     for (size_t i = 0; i < w->count; i++) {

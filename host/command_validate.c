@@ -261,7 +261,13 @@ static status plot(const char *path, const weather_table *t, const float *predic
     double *time_h = values, *measured_c = values + count, *predicted_c = values + 2 * count;
     const curve_line lines[] = {{"measured", measured_c, {120, 120, 120}},
                                 {"predicted", predicted_c, {200, 60, 20}}};
-    const curve c = {"surface temperature", "C", time_h, count, lines, 2};
+    const curve c = {.title = "surface temperature",
+                     .unit = "C",
+                     .x_unit = "h",
+                     .x = time_h,
+                     .count = count,
+                     .line = lines,
+                     .line_count = 2};
 
     NEED(values, STATUS_MEMORY, "no memory to draw %zu temperatures", count);
     for (size_t i = 0; i < count; i++) {

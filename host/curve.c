@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum {
     PAGE_WIDTH = 800,
@@ -15,12 +16,15 @@ enum {
     TITLE_SIZE = 18,
     TEXT_SIZE = 13,
     PEN = 2,
-    TICK_LIMIT = 8
+    TICK_LIMIT = 8,
+    DECADES = 6
 };
 
-/* What the axes span. */
+/* What the axes span; of a logarithmic one low, high and step are powers of ten. */
 typedef struct axes {
-    double low_h, high_h, low, high, step, step_h;
+    double low_x, high_x, low, high, step, step_x;
+    double least; /* cut there before the logarithm */
+    bool is_log;
 } axes;
 
 /* The smallest of 1, 2, 5, 10 ... that cuts the range into TICK_LIMIT steps or fewer. */
@@ -33,35 +37,49 @@ static double round_step(double range)
     return power * (times <= 1.0 ? 1.0 : times <= 2.0 ? 2.0 : times <= 5.0 ? 5.0 : 10.0);
 }
 
+static double highest_of(const curve *c)
+{
+    double highest = c->line[0].value[0];
+
+    for (size_t k = 0; k < c->line_count; k++)
+        for (size_t i = 0; i < c->count; i++) highest = fmax(highest, c->line[k].value[i]);
+    return highest;
+}
+
+static double height_of(const axes *a, double value)
+{
+    return a->is_log ? log10(fmax(value, a->least)) : value;
+}
+
 static axes axes_of(const curve *c)
 {
-    axes a = {.low_h = c->time_h[0], .high_h = c->time_h[c->count - 1]};
+    axes a = {.low_x = c->x[0], .high_x = c->x[c->count - 1], .is_log = c->is_log};
+    const double range = a.high_x - a.low_x, highest = highest_of(c);
 
-    a.low = a.high = c->line[0].value[0];
-    for (size_t k = 0; k < c->line_count; k++) {
-        for (size_t i = 0; i < c->count; i++) {
-            a.low = fmin(a.low, c->line[k].value[i]);
-            a.high = fmax(a.high, c->line[k].value[i]);
-        }
-    }
-    a.step = round_step(a.high - a.low);
+    a.least = fmax(highest, 1e-30) * pow(10.0, -DECADES);
+    a.low = a.high = height_of(&a, highest);
+    for (size_t k = 0; k < c->line_count; k++)
+        for (size_t i = 0; i < c->count; i++)
+            a.low = fmin(a.low, height_of(&a, c->line[k].value[i]));
+    a.step = a.is_log ? 1.0 : round_step(a.high - a.low);
     a.low = a.step * floor(a.low / a.step);
     a.high = fmax(a.low + a.step, a.step * ceil(a.high / a.step));
-    a.step_h = 6.0 * fmax(1.0, ceil((a.high_h - a.low_h) / 6.0 / 12.0));
+    a.step_x =
+        strcmp(c->x_unit, "h") ? round_step(range) : 6.0 * fmax(1.0, ceil(range / 6.0 / 12.0));
     return a;
 }
 
-static uint32_t column_of(const axes *a, double time_h)
+static uint32_t column_of(const axes *a, double x)
 {
-    return LEFT + (uint32_t)lround((WIDTH - 1) * (time_h - a->low_h) / (a->high_h - a->low_h));
+    return LEFT + (uint32_t)lround((WIDTH - 1) * (x - a->low_x) / (a->high_x - a->low_x));
 }
 
-static uint32_t row_of(const axes *a, double value)
+static uint32_t row_of(const axes *a, double height)
 {
-    return TOP + (uint32_t)lround((HEIGHT - 1) * (a->high - value) / (a->high - a->low));
+    return TOP + (uint32_t)lround((HEIGHT - 1) * (a->high - height) / (a->high - a->low));
 }
 
-static status draw_axes(picture *pic, const axes *a)
+static status draw_axes(picture *pic, const axes *a, const char *x_unit)
 {
     status rc = STATUS_OK;
     static const uint8_t grid[3] = {215, 215, 215};
@@ -69,16 +87,17 @@ static status draw_axes(picture *pic, const axes *a)
     uint32_t width;
 
     for (double v = a->low; v <= a->high + 0.5 * a->step; v += a->step) {
-        snprintf(text, sizeof text, "%g", fabs(v) < 1e-9 * a->step ? 0.0 : v);
+        const double value = a->is_log ? pow(10.0, v) : v;
+        snprintf(text, sizeof text, "%g", fabs(value) < 1e-9 * a->step && !a->is_log ? 0.0 : value);
         TRY(picture_text_width(&width, text, TEXT_SIZE));
         picture_fill(pic, LEFT, row_of(a, v), WIDTH, 1, grid);
         TRY(picture_text(pic, LEFT - 8 - width, row_of(a, v) + TEXT_SIZE / 2 - 2, text, TEXT_SIZE));
     }
-    for (double h = a->step_h * ceil(a->low_h / a->step_h); h <= a->high_h; h += a->step_h) {
-        snprintf(text, sizeof text, "%g h", h);
+    for (double x = a->step_x * ceil(a->low_x / a->step_x); x <= a->high_x; x += a->step_x) {
+        snprintf(text, sizeof text, "%g %s", x, x_unit);
         TRY(picture_text_width(&width, text, TEXT_SIZE));
-        picture_fill(pic, column_of(a, h), TOP, 1, HEIGHT, grid);
-        TRY(picture_text(pic, column_of(a, h) - width / 2, TOP + HEIGHT + 20, text, TEXT_SIZE));
+        picture_fill(pic, column_of(a, x), TOP, 1, HEIGHT, grid);
+        TRY(picture_text(pic, column_of(a, x) - width / 2, TOP + HEIGHT + 20, text, TEXT_SIZE));
     }
 out:
     return rc;
@@ -87,15 +106,17 @@ out:
 /* Linear between the values, a column of the picture at a time. */
 static void draw_line(picture *pic, const axes *a, const curve *c, const curve_line *line)
 {
-    uint32_t last = row_of(a, line->value[0]);
+    uint32_t last = row_of(a, height_of(a, line->value[0]));
 
-    for (uint32_t x = 0, i = 0; x + PEN <= WIDTH; x++) {
-        const double time_h = a->low_h + (a->high_h - a->low_h) * x / (WIDTH - 1);
-        while (i + 2 < c->count && c->time_h[i + 1] < time_h) i++;
-        const double share = (time_h - c->time_h[i]) / (c->time_h[i + 1] - c->time_h[i]);
+    for (uint32_t column = 0, i = 0; column + PEN <= WIDTH; column++) {
+        const double x = a->low_x + (a->high_x - a->low_x) * column / (WIDTH - 1);
+        while (i + 2 < c->count && c->x[i + 1] < x) i++;
+        const double share = (x - c->x[i]) / (c->x[i + 1] - c->x[i]);
         const double value = line->value[i] + share * (line->value[i + 1] - line->value[i]);
-        const uint32_t row = row_of(a, value), upper = row < last ? row : last;
-        picture_fill(pic, LEFT + x, upper, PEN, (row > last ? row : last) - upper + PEN, line->rgb);
+        const uint32_t row = row_of(a, height_of(a, value)), upper = row < last ? row : last;
+        if (!a->is_log || value > a->least)
+            picture_fill(pic, LEFT + column, upper, PEN, (row > last ? row : last) - upper + PEN,
+                         line->rgb);
         last = row;
     }
 }
@@ -104,15 +125,15 @@ static status draw_names(picture *pic, const curve *c)
 {
     status rc = STATUS_OK;
     uint32_t x = LEFT, width;
-    char text[64];
+    char text[128];
 
-    TRY(picture_text(pic, LEFT, 26, c->title, TITLE_SIZE));
+    snprintf(text, sizeof text, "%s [%s]", c->title, c->unit);
+    TRY(picture_text(pic, LEFT, 26, text, TITLE_SIZE));
     for (size_t k = 0; k < c->line_count; k++) {
-        snprintf(text, sizeof text, "%s [%s]", c->line[k].name, c->unit);
-        TRY(picture_text_width(&width, text, TEXT_SIZE));
+        TRY(picture_text_width(&width, c->line[k].name, TEXT_SIZE));
         if (x + 24 + width > PAGE_WIDTH) break;
         picture_fill(pic, x, 42, 16, 4, c->line[k].rgb);
-        TRY(picture_text(pic, x + 22, 49, text, TEXT_SIZE));
+        TRY(picture_text(pic, x + 22, 49, c->line[k].name, TEXT_SIZE));
         x += 22 + width + 24;
     }
 out:
@@ -127,7 +148,7 @@ status curve_write(const char *path, const curve *c)
     picture *pic = NULL;
 
     TRY(picture_create(&pic, PAGE_WIDTH, PAGE_HEIGHT));
-    TRY(draw_axes(pic, &a));
+    TRY(draw_axes(pic, &a, c->x_unit));
     for (size_t k = 0; k < c->line_count; k++) draw_line(pic, &a, c, &c->line[k]);
     TRY(draw_names(pic, c));
     TRY(output_file_reserve(&file, path));

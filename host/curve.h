@@ -1,9 +1,10 @@
-/* Curve: values over the hours of some days, drawn for people as a PNG. */
+/* Curve: values over hours, wavelengths or the like, drawn for people as a PNG. */
 #ifndef CURVE_H
 #define CURVE_H
 
 #include "status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -15,10 +16,12 @@ typedef struct curve_line {
 
 typedef struct curve {
     const char *title, *unit;
-    const double *time_h; /* shape (count), ascending */
-    size_t count;         /* 2 or more */
+    const char *x_unit; /* "h" is cut every 6 */
+    const double *x;    /* shape (count), ascending */
+    size_t count;       /* 2 or more */
     const curve_line *line;
     size_t line_count;
+    bool is_log; /* a logarithmic axis; what lies below the highest value's 1e-6 is left out */
 } curve;
 
 /* Writes the picture; fails with STATUS_FILE where the file or the font cannot be opened. */
