@@ -463,3 +463,19 @@ out:
     free_tile(&t);
     return rc;
 }
+
+status render_pixel_day(render *r, uint32_t pixel, temperature_day *out)
+{
+    status rc = STATUS_OK;
+    device_memory hit = NULL;
+    hit_record met;
+
+    *out = (temperature_day){0};
+    TRY(device_allocate(r->dev, &hit, sizeof met, NULL));
+    TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, pixel, 1, hit));
+    TRY(device_download(r->dev, hit, 0, sizeof met, &met));
+    if (met.facet != RECORD_NONE) TRY(temperature_day_of(r->warmth, r->rays, hit, out));
+out:
+    device_release(hit);
+    return rc;
+}

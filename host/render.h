@@ -11,6 +11,7 @@
 #include "device.h"
 #include "render_plane.h"
 #include "scene.h"
+#include "temperature.h"
 
 typedef struct render render;
 
@@ -43,6 +44,10 @@ render_look render_stated_look(const scene *s);
 
 /* Looks in another way from the next tile on. Temperatures stay those of the scene's time. */
 void render_change_look(render *r, const render_look *look);
+
+/* The last 24 hours, up to the scene's time, of what a pixel of the present look shows. A pixel that
+ * meets nothing has a day of no steps. */
+status render_pixel_day(render *r, uint32_t pixel, temperature_day *out);
 
 /* Seconds of the stages before the first tile, on the host. */
 typedef struct render_stage {

@@ -10,14 +10,14 @@ struct sun_history {
     device *dev;
     sun_day day;
     device_memory sun; /* float, shape (32 words, 4) */
+    long last;
+    double last_s;
 };
 
 /* Slots of the day fill up from the last step backwards. */
 static void set_suns(float (*sun)[4], const sun_day *day, const site *place, double origin_s,
-                     double step_s)
+                     double step_s, long last)
 {
-    const long last = (long)ceil((place->time_s - origin_s) / step_s - 1e-6);
-
     for (long k = last; k > last - (long)day->slot_count; k--) {
         const double time_s = origin_s + (double)k * step_s;
         const long slots = (long)day->slot_count;
@@ -55,7 +55,9 @@ status sun_history_open(sun_history **out, device *dev, const site *place, doubl
     const size_t slots = 32 * (size_t)history->day.word_count;
     sun = calloc(slots, sizeof *sun);
     NEED(sun, STATUS_MEMORY, "no memory for the sun's day");
-    set_suns(sun, &history->day, place, origin_s, step_s);
+    history->last = (long)ceil((place->time_s - origin_s) / step_s - 1e-6);
+    history->last_s = origin_s + (double)history->last * step_s;
+    set_suns(sun, &history->day, place, origin_s, step_s, history->last);
     TRY(device_allocate(dev, &history->sun, slots * sizeof *sun, sun));
     *out = history;
     history = NULL;
@@ -75,6 +77,12 @@ void sun_history_free(sun_history *history)
 uint32_t sun_history_slots(const sun_history *history)
 {
     return history->day.slot_count;
+}
+
+long sun_history_last(const sun_history *history, double *out_time_s)
+{
+    *out_time_s = history->last_s;
+    return history->last;
 }
 
 uint32_t sun_history_words(const sun_history *history)

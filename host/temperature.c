@@ -263,3 +263,57 @@ status temperature_of_hits(const temperature *t, uint32_t count, device_memory h
     return device_run(t->dev, "facet_temperature", shape1(count), ARG(count), ARG(first_plane),
                       ARG(hit), ARG(t->facet_temperature_k), ARG(out_k), ARG(out_planes));
 }
+
+/* Unrolls the bits of the day's slots into steps. */
+static void unroll(const uint32_t *bits, long last, temperature_day *day)
+{
+    const long slots = (long)day->step_count;
+
+    for (long i = 0, k = last - slots + 1; i < slots; i++, k++) {
+        const long slot = (k % slots + slots) % slots;
+        day->lit[i] = bits[slot / 32] >> (slot % 32) & 1u;
+    }
+}
+
+status temperature_day_of(const temperature *t, const ray_scene *rays, device_memory hit,
+                          temperature_day *out)
+{
+    status rc = STATUS_OK;
+    const uint32_t words = sun_history_words(t->sun), slots = sun_history_slots(t->sun);
+    temperature_day day = {.step_count = slots, .step_s = 86400.0 / slots};
+    const long last = sun_history_last(t->sun, &day.last_s);
+    device_memory history = NULL;
+    uint32_t *bits = malloc(words * sizeof *bits);
+    hit_record met;
+
+    day.lit = calloc(slots, sizeof *day.lit);
+    day.temperature_k = t->model ? malloc(slots * sizeof *day.temperature_k) : NULL;
+    NEED(bits && day.lit && (!t->model || day.temperature_k), STATUS_MEMORY, "no memory for a day");
+    TRY(device_allocate(t->dev, &history, words * sizeof *bits, NULL));
+    TRY(sun_history_trace(t->sun, rays, t->facets, 1, hit, history));
+    TRY(device_download(t->dev, history, 0, words * sizeof *bits, bits));
+    TRY(device_download(t->dev, hit, 0, sizeof met, &met));
+    unroll(bits, last, &day);
+    if (t->model) {
+        const thermal_subject subject = {.facet = &t->facet[met.facet],
+                                         .count = 1,
+                                         .lit = bits,
+                                         .word_count = words,
+                                         .slot_count = slots};
+        TRY(thermal_day(t->model, &subject, last, day.temperature_k));
+    }
+    *out = day;
+    day = (temperature_day){0};
+out:
+    temperature_day_free(&day);
+    device_release(history);
+    free(bits);
+    return rc;
+}
+
+void temperature_day_free(temperature_day *day)
+{
+    free(day->temperature_k);
+    free(day->lit);
+    *day = (temperature_day){0};
+}

@@ -38,4 +38,19 @@ status temperature_of_pixels(const temperature *t, const ray_scene *rays, uint32
                              device_memory hit, uint32_t first_plane, device_memory out_history,
                              device_memory out_k, device_memory out_planes);
 
+/* The 24 hours up to a site's time, as a point went through them. */
+typedef struct temperature_day {
+    uint32_t step_count;
+    double step_s, last_s; /* between steps; UTC time of the last step */
+    bool *lit;             /* shape (step_count): the sun reaches it */
+    float *temperature_k;  /* shape (step_count); NULL where temperatures are stated */
+} temperature_day;
+
+/* The day of one point.
+ *   hit   one hit_record that met something
+ *   out   to be freed with temperature_day_free */
+status temperature_day_of(const temperature *t, const ray_scene *rays, device_memory hit,
+                          temperature_day *out);
+void temperature_day_free(temperature_day *day);
+
 #endif

@@ -344,3 +344,25 @@ status thermal_history(const thermal *t, const facet_record *facet, float *out_t
 
     return compute(t, &b, span, out_temperature_k);
 }
+
+status thermal_day(const thermal *t, const thermal_subject *subject, long last,
+                   float *out_temperature_k)
+{
+    status rc = STATUS_OK;
+    facet_record one = subject->facet[0];
+    const batch b = {.facet = &one,
+                     .lit = (uint32_t *)subject->lit,
+                     .count = 1,
+                     .word_count = subject->word_count,
+                     .slot_count = subject->slot_count};
+    const thermal_span span = {.row_count = (uint)t->step_count, .weight = 1.0f};
+    float *every_k = malloc(t->step_count * sizeof *every_k);
+
+    NEED(every_k, STATUS_MEMORY, "no memory for a day's temperatures");
+    TRY(compute(t, &b, span, every_k));
+    for (long i = 0, k = last - (long)subject->slot_count + 1; k <= last; i++, k++)
+        out_temperature_k[i] = k >= 0 && k < (long)t->step_count ? every_k[k] : NAN;
+out:
+    free(every_k);
+    return rc;
+}

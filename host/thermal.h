@@ -44,6 +44,12 @@ typedef struct thermal_subject {
  * Fails with STATUS_ARGUMENT where the weather does not cover the site's time. */
 status thermal_at_time(const thermal *t, const thermal_subject *subject, float *out_temperature_k);
 
+/* Computes the temperatures at the slot_count steps of the weather that end with step `last`.
+ *   subject             count 1, with lit
+ *   out_temperature_k   shape (slot_count); NAN where the weather has no such step */
+status thermal_day(const thermal *t, const thermal_subject *subject, long last,
+                   float *out_temperature_k);
+
 /* Computes the temperatures of one facet at every step of the weather, always lit.
  *   out_temperature_k   shape (weather's count) */
 status thermal_history(const thermal *t, const facet_record *facet, float *out_temperature_k);

@@ -1,12 +1,14 @@
 #include "inspection.h"
 
+#include "../kernels/constants.h"
+#include "day_plot.h"
 #include "image.h"
 #include "page.h"
 
 #include <math.h>
 #include <stdarg.h>
 
-enum { LINE_LIMIT = 40, LINE_SIZE = 160, SPECTRUM_BANDS = 3, PLOT_WIDTH = 220, PLOT_HEIGHT = 80 };
+enum { LINE_LIMIT = 40, LINE_SIZE = 160, SPECTRUM_BANDS = 3, PLOT_WIDTH = 280, PLOT_HEIGHT = 60 };
 
 static const canvas_colour ink = {25, 25, 25, 255}, paper = {255, 255, 255, 220},
                            mark = {0, 230, 118, 255}, curve = {178, 24, 43, 255};
@@ -121,6 +123,24 @@ static void draw_cross(const preview *p)
     canvas_line(p->c, x, y + 0.3 * arm, x, y + arm, width, mark);
 }
 
+/* The plots stand on the pixel's side, above it or below it. */
+static void draw_plots(const preview *p, size_t pixel)
+{
+    const double pad = 6.0 * p->scale, height = canvas_line_height(p->c, CANVAS_TEXT);
+    const double each = PLOT_HEIGHT * p->scale + 1.3 * height, width = PLOT_WIDTH * p->scale;
+    const bool has_day = preview_has_day(p),
+               has_spectrum = p->live->of->s->band_count >= SPECTRUM_BANDS;
+    const bool is_left = p->pick_column <= p->wish.columns / 2;
+    preview_rectangle plot = {p->picture.x + (is_left ? pad : p->picture.width - width - pad),
+                              p->picture.y + pad, width, PLOT_HEIGHT * p->scale};
+
+    if (p->pick_row <= p->wish.rows / 2)
+        plot.y += p->picture.height - pad - (has_day + has_spectrum) * each;
+    if (has_day) day_plot_draw(p, plot);
+    if (has_day) plot.y += each;
+    if (has_spectrum) draw_spectrum(p, pixel, plot);
+}
+
 void inspection_draw(const preview *p)
 {
     lines l = {.count = 0};
@@ -143,11 +163,23 @@ void inspection_draw(const preview *p)
     for (int i = 0; i < l.count; i++)
         canvas_text(p->c, x + pad, p->picture.y + 1.5 * pad + i * height, CANVAS_TEXT, ink,
                     l.text[i]);
-    if (p->live->of->s->band_count >= SPECTRUM_BANDS)
-        draw_spectrum(p, pixel,
-                      (preview_rectangle){x, p->picture.y + 3.0 * pad + l.count * height,
-                                          PLOT_WIDTH * p->scale, PLOT_HEIGHT * p->scale});
+    draw_plots(p, pixel);
     draw_cross(p);
+}
+
+static void write_day(const preview *p, FILE *to)
+{
+    const temperature_day *day = &p->day.day;
+    char time[SITE_TIME_SIZE];
+
+    for (uint32_t i = 0; i < day->step_count; i++) {
+        site_format_time(day->last_s - (day->step_count - 1 - i) * day->step_s,
+                         preview_scene(p)->place.utc_offset_min, time);
+        fprintf(to, "day %s %d", time, day->lit[i]);
+        if (day->temperature_k)
+            fprintf(to, " %.9g", (double)(day->temperature_k[i] - ZERO_CELSIUS_K));
+        fprintf(to, "\n");
+    }
 }
 
 void inspection_write(const preview *p, FILE *to)
@@ -164,5 +196,6 @@ void inspection_write(const preview *p, FILE *to)
         fprintf(to, "pixel %d %d difference %.9g %s\n", p->pick_column, p->pick_row,
                 (double)p->difference[pixel],
                 f->planes[p->plane].plane.unit ? f->planes[p->plane].plane.unit : "");
+    write_day(p, to);
     fflush(to);
 }

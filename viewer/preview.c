@@ -66,6 +66,7 @@ void preview_free(preview *p)
     full_render_free(p->full);
     session_free(p->work);
     canvas_free(p->c);
+    temperature_day_free(&p->day.day);
     frame_drop(p->live);
     frame_drop(p->pinned);
     shared_scene_drop(p->first);
@@ -202,6 +203,7 @@ static void take_frame(preview *p)
     if (!f) return;
     frame_drop(p->live);
     p->live = f;
+    p->asked_day = SIZE_MAX;
     if (!p->wish.has_camera) p->camera = f->of->s->camera;
     find_plane(p);
     p->is_stale = true;
@@ -224,10 +226,34 @@ static void take_state(preview *p)
     if (!full_render_is_running(p->full)) full_render_tell(p->full, p->note, sizeof p->note);
 }
 
+bool preview_has_day(const preview *p)
+{
+    return p->day.is_made && p->day.wish == p->live->wish && p->live->is_exact &&
+           p->day.pixel == preview_pixel(p, p->live, p->pick_column, p->pick_row);
+}
+
+/* Asks for the day of the picked pixel of an exact picture, and takes what was made. */
+static void follow_day(preview *p)
+{
+    session_day day;
+
+    if (session_take_day(p->work, &day)) {
+        temperature_day_free(&p->day.day);
+        p->day = day;
+        p->is_stale = true;
+    }
+    if (!p->live || !p->live->is_exact || p->live->wish != p->wished) return;
+    if (!p->shows_values && !p->prints_values) return;
+    const size_t pixel = preview_pixel(p, p->live, p->pick_column, p->pick_row);
+    if (pixel == p->asked_day) return;
+    p->asked_day = pixel;
+    session_pick(p->work, pixel);
+}
+
 /* Prints the values that were asked for, if they are those of the wish. */
 static void print_picked(preview *p)
 {
-    if (!p->prints_values || !p->live->is_exact || p->live->wish != p->wished) return;
+    if (!p->prints_values || p->live->wish != p->wished || !preview_has_day(p)) return;
     inspection_write(p, p->picks);
     preview_note(p, "the values of pixel %d, %d are printed", p->pick_column, p->pick_row);
     p->prints_values = false;
@@ -240,6 +266,7 @@ status preview_step(preview *p, bool *out_drew)
 
     take_state(p);
     take_frame(p);
+    follow_day(p);
     *out_drew = p->is_stale;
     if (!p->is_stale) goto out;
     p->is_stale = false;
@@ -263,7 +290,7 @@ status preview_rest(preview *p)
     while (!rested) {
         session_state state;
         session_look(p->work, &state);
-        rested = state.is_at_rest;
+        rested = state.is_at_rest && (!p->prints_values || state.error[0]);
         TRY(preview_step(p, &drew));
         if (!rested) p->s->take(p->s, &unused, pause_s);
     }

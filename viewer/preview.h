@@ -57,6 +57,9 @@ typedef struct preview {
     bool is_held, has_dragged;   /* a button, and the pointer since then */
     event_button held;
 
+    session_day day;  /* of the picked pixel, if its wish and pixel are those of live */
+    size_t asked_day; /* pixel whose day was asked for; SIZE_MAX: none since live came */
+
     int width, height; /* of the page, pixels */
     double scale;
     preview_rectangle picture; /* where the picture stands on the page */
@@ -88,7 +91,7 @@ void preview_ask(preview *p);
 /* Takes what the session has made and draws the page if something changed. Returns whether it drew. */
 status preview_step(preview *p, bool *out_drew);
 
-/* Steps until the session is at rest and that is drawn. */
+/* Steps until the session is at rest, that is drawn, and what was to be printed is. */
 status preview_rest(preview *p);
 
 /* Shows a plane. */
@@ -106,6 +109,9 @@ const scene *preview_scene(const preview *p);
 /* Time and mode of the wish. */
 double preview_time_s(const preview *p);
 bool preview_thesis(const preview *p);
+
+/* Whether the picked pixel's day is there. */
+bool preview_has_day(const preview *p);
 
 /* Index of a pixel of the wish in a frame. */
 size_t preview_pixel(const preview *p, const frame *f, int column, int row);

@@ -28,6 +28,9 @@ struct session {
     bool quits;
     frame *newest;
     session_state state;
+    bool has_pick, has_day; /* to be made; made */
+    size_t pick;
+    session_day day;
 
     /* Of the thread. */
     device *dev;
@@ -197,7 +200,7 @@ static bool stays(session *s, unsigned number, double wait_s)
     until.tv_sec += until.tv_nsec / 1000000000;
     until.tv_nsec %= 1000000000;
     pthread_mutex_lock(&s->lock);
-    while (!s->quits && s->wished == number && error != ETIMEDOUT)
+    while (!s->quits && s->wished == number && !s->has_pick && error != ETIMEDOUT)
         error = pthread_cond_timedwait(&s->changed, &s->lock, &until);
     const bool stayed = !s->quits && s->wished == number;
     pthread_mutex_unlock(&s->lock);
@@ -237,6 +240,24 @@ static void settle(session *s, unsigned number, status rc)
     status_warnings();
 }
 
+/* Makes the day of the picked pixel, of the look of the last exact frame. */
+static void make_day(session *s, unsigned number)
+{
+    session_day made = {.is_made = true, .wish = number};
+
+    pthread_mutex_lock(&s->lock);
+    made.pixel = s->pick;
+    s->has_pick = false;
+    pthread_mutex_unlock(&s->lock);
+    if (!s->r || render_pixel_day(s->r, (uint32_t)made.pixel, &made.day) != STATUS_OK)
+        status_clear();
+    pthread_mutex_lock(&s->lock);
+    temperature_day_free(&s->day.day);
+    s->day = made;
+    s->has_day = true;
+    pthread_mutex_unlock(&s->lock);
+}
+
 static void *work(void *argument)
 {
     session *s = argument;
@@ -245,7 +266,7 @@ static void *work(void *argument)
     while (!s->quits) {
         const session_wish wish = s->wish;
         const unsigned number = s->wished;
-        const bool is_new = s->answered != number;
+        const bool is_new = s->answered != number, has_pick = s->has_pick;
         pthread_mutex_unlock(&s->lock);
         const file_stamp stamp = file_stamp_of(s->of->s);
         if (!file_stamp_equal(stamp, s->stamp)) {
@@ -255,6 +276,8 @@ static void *work(void *argument)
             settle(s, number, rc);
         } else if (is_new) {
             settle(s, number, answer(s, &wish, number));
+        } else if (has_pick) {
+            make_day(s, number);
         } else {
             stays(s, number, watch_s);
         }
@@ -300,6 +323,7 @@ void session_free(session *s)
         pthread_join(s->thread, NULL);
     }
     frame_drop(s->newest);
+    temperature_day_free(&s->day.day);
     render_free(s->r);
     shared_scene_drop(s->of);
     device_free(s->dev);
@@ -325,6 +349,28 @@ frame *session_take(session *s)
     s->newest = NULL;
     pthread_mutex_unlock(&s->lock);
     return f;
+}
+
+void session_pick(session *s, size_t pixel)
+{
+    pthread_mutex_lock(&s->lock);
+    s->pick = pixel;
+    s->has_pick = true;
+    pthread_cond_signal(&s->changed);
+    pthread_mutex_unlock(&s->lock);
+}
+
+bool session_take_day(session *s, session_day *out)
+{
+    pthread_mutex_lock(&s->lock);
+    const bool has_day = s->has_day;
+    if (has_day) {
+        *out = s->day;
+        s->day = (session_day){0};
+        s->has_day = false;
+    }
+    pthread_mutex_unlock(&s->lock);
+    return has_day;
 }
 
 void session_look(session *s, session_state *out)

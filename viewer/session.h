@@ -40,6 +40,20 @@ unsigned session_ask(session *s, const session_wish *wish);
 /* Takes the newest frame since the last call, or NULL. The caller holds it. */
 frame *session_take(session *s);
 
+/* The last 24 hours of a pixel of the last exact frame. */
+typedef struct session_day {
+    bool is_made;
+    size_t pixel;
+    unsigned wish;       /* number of the frame's */
+    temperature_day day; /* no steps: the pixel shows the sky, or the day cannot be had */
+} session_day;
+
+/* Asks for the day of a pixel of the exact frame of the last wish. */
+void session_pick(session *s, size_t pixel);
+
+/* Takes the day that was last made; false: there is none since the last call. The caller frees it. */
+bool session_take_day(session *s, session_day *out);
+
 void session_look(session *s, session_state *out);
 
 #endif

@@ -94,8 +94,34 @@ def test_a_picked_value_is_the_image_s(preview, scene, tmp_path):
     assert picked["radiance_mwir"] == pytest.approx(values[1, 20, 31], rel=1e-8)
 
 
+def days(text):
+    """Time, whether lit, and temperature in C of the steps that a click prints."""
+    return [line.split()[1:] for line in text.splitlines() if line.startswith("day ")]
+
+
+def test_open_ground_is_lit_as_long_as_the_sun_is_up(preview, scene, tmp_path):
+    ground = preview.scene["meshes"]["wall.obj"].split("o shed")[0]
+    preview.write_scene(tmp_path, **{**preview.scene, "meshes": {"wall.obj": ground}})
+    done = preview.view(scene, tmp_path, "wait", "click 60 46")
+    lit_h = sum(int(lit) for _, lit in days(done.stdout)) * 24 / len(days(done.stdout))
+
+    # 2 acos(-tan 40 tan 23.44) / 15 h on the day of the solstice; a step is a quarter of an hour.
+    expected_h = 2 * np.degrees(np.arccos(-np.tan(np.radians(40)) * np.tan(np.radians(23.44)))) / 15
+    assert lit_h == pytest.approx(expected_h, abs=0.25)
+    assert preview.picks(done.stdout)["hours_lit_24h"] == pytest.approx(lit_h, abs=1e-5)
+
+
+def test_the_last_temperature_of_the_day_is_the_pixel_s(preview, airport, tmp_path):
+    done = preview.view(airport, tmp_path, "wait", "click 20 110", options=["--size", "160x120"])
+    last = days(done.stdout)[-1]
+
+    assert last[0] == "1987-06-24T10:00:00-05:00"
+    # Normals are rounded to 2^-13 before pixels' temperatures are computed.
+    assert float(last[2]) == pytest.approx(preview.picks(done.stdout)["temperature_c"], abs=0.02)
+
+
 def test_a_look_at_a_point_brings_it_to_the_middle(preview, scene, tmp_path):
-    done = preview.view(scene, tmp_path, "wait", "click 40 30", "key t", "wait", "key space")
+    done = preview.view(scene, tmp_path, "wait", "click 40 30", "wait", "key t", "wait", "key space")
     facets = [line.split()[4] for line in done.stdout.splitlines() if " facet " in line]
     lines = [line.split() for line in done.stdout.splitlines() if " range_m " in line]
 

@@ -47,10 +47,13 @@ class Person:
     def values(self):
         """Values by plane that the next pick prints, which waits for the exact picture."""
         picked = {}
-        while "emissivity_lwir" not in picked:
-            words = self.program.stdout.readline().split()
-            assert words[0] == "pixel", words
+        words = self.program.stdout.readline().split()
+        while words[0] == "pixel":
             picked[words[3]] = float(words[4])
+            words = self.program.stdout.readline().split()
+        for _ in range(95):  # of the day's 96 lines the first is read
+            assert words[0] == "day"
+            words = self.program.stdout.readline().split()
         return picked
 
     def page(self, number):
