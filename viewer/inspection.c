@@ -151,6 +151,7 @@ void inspection_draw(const preview *p)
     add(&l, "column %d, row %d", p->pick_column, p->pick_row);
     add_names(&l, p->live, pixel);
     add_values(&l, p, pixel);
+    l.count = (int)fmin(l.count, floor((p->picture.height - 3.0 * pad) / height)); /* what fits */
     for (int i = 0; i < l.count; i++) {
         const int wide = canvas_text_width(p->c, CANVAS_TEXT, l.text[i]);
         width = wide > width ? wide : width;
