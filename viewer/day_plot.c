@@ -67,6 +67,6 @@ void day_plot_draw(const preview *p, preview_rectangle into)
                  high_k - (double)ZERO_CELSIUS_K);
     }
     site_format_time(day->last_s, preview_scene(p)->place.utc_offset_min, time);
-    snprintf(text, sizeof text, "24 h up to %.5s: sun for %.4g h%s", time + 11, lit_h, warmth);
+    snprintf(text, sizeof text, "24 h to %.5s: sun %.4g h%s", time + 11, lit_h, warmth);
     canvas_text(p->c, into.x + 4.0, into.y + into.height, CANVAS_TEXT, ink, text);
 }

@@ -129,8 +129,12 @@ static void draw_beside(const preview *p)
 
     canvas_fill(p->c, r.x, r.y, r.width, r.height, (canvas_colour){235, 235, 235, 255});
     site_format_time(p->pinned->time_s, p->pinned->of->s->place.utc_offset_min, time);
-    snprintf(caption, sizeof caption, "pinned: %.5s %s, %.4g to %.4g", time + 11,
-             p->pinned->planes[p->pinned_plane].name, range.min, range.max);
+    const char *plane = p->pinned->planes[p->pinned_plane].name;
+    if (strcmp(plane, p->live->planes[p->plane].name)) /* else the bar stands for both */
+        snprintf(caption, sizeof caption, "%.5s %s, %.4g to %.4g", time + 11, plane, range.min,
+                 range.max);
+    else
+        snprintf(caption, sizeof caption, "%.5s %s", time + 11, plane);
     draw_fitting(p, 1, p->pinned, (preview_rectangle){r.x, r.y, half - 2.0, r.height}, caption);
     site_format_time(p->live->time_s, p->live->of->s->place.utc_offset_min, time);
     snprintf(caption, sizeof caption, "%.5s %s", time + 11, p->live->planes[p->plane].name);
