@@ -16,11 +16,13 @@ typedef float16 lanes;
 typedef int16 lanes_mask; /* of a comparison */
 typedef uint16 lanes_bits;
 #define lanes_any(mask) any(mask)
+#define LANES_SET(vector, lane, value) (((float *)&(vector))[lane] = (value))
 #elif LANES_WIDTH == 1
 typedef float lanes;
 typedef int lanes_mask;
 typedef uint lanes_bits;
 #define lanes_any(mask) (mask)
+#define LANES_SET(vector, lane, value) ((void)(lane), (vector) = (value))
 #endif
 
 #ifdef __OPENCL_C_VERSION__

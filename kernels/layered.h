@@ -61,7 +61,7 @@ typedef struct layered_air {
     float rain_kg_m2_s;
 } layered_air;
 
-#define LAYERED_SET(body, name, lane, value) (((float *)&(body)->name)[lane] = (value))
+#define LAYERED_SET(body, name, lane, value) LANES_SET((body)->name, lane, value)
 
 static inline void layered_set_body(layered_body *body, int lane, const layered_record *record)
 {

@@ -65,7 +65,7 @@ typedef struct thermal_flux {
     lanes w_m2, w_m2_k;
 } thermal_flux;
 
-#define THERMAL_SET(body, name, lane, value) (((float *)&(body)->name)[lane] = (value))
+#define THERMAL_SET(body, name, lane, value) LANES_SET((body)->name, lane, value)
 
 /* Fills one lane. */
 static inline void thermal_set_body(thermal_body *body, int lane, facet_record facet,
