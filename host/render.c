@@ -114,7 +114,8 @@ static status set_temperatures(render *r)
     status rc = STATUS_OK;
 
     TRY(upload_facets(r));
-    TRY(temperature_open(&r->warmth, r->dev, r->s, r->rays, r->facets, r->facet, r->facet_count));
+    TRY(temperature_open(&r->warmth, r->dev, r->s, r->rays, r->bodies, r->facets, r->facet,
+                         r->facet_count));
     end_stage(r, "temperatures");
 out:
     return rc;

@@ -9,6 +9,7 @@
 struct sun_history {
     device *dev;
     sun_day day;
+    const bodies *dimming;
     device_memory sun; /* float, shape (32 words, 4) */
     long last;
     double last_s;
@@ -43,7 +44,7 @@ static sun_day day_of(const site *place, double origin_s, double step_s)
 }
 
 status sun_history_open(sun_history **out, device *dev, const site *place, double origin_s,
-                        double step_s)
+                        double step_s, const bodies *dimming)
 {
     status rc = STATUS_OK;
     float(*sun)[4] = NULL;
@@ -51,7 +52,9 @@ status sun_history_open(sun_history **out, device *dev, const site *place, doubl
 
     NEED(history, STATUS_MEMORY, "no memory for the sun's day");
     history->dev = dev;
+    history->dimming = dimming;
     history->day = day_of(place, origin_s, step_s);
+    history->day.stride = history->day.word_count * (dimming ? 1 + SUN_HISTORY_SHARES : 1);
     const size_t slots = 32 * (size_t)history->day.word_count;
     sun = calloc(slots, sizeof *sun);
     NEED(sun, STATUS_MEMORY, "no memory for the sun's day");
@@ -87,19 +90,39 @@ long sun_history_last(const sun_history *history, double *out_time_s)
 
 uint32_t sun_history_words(const sun_history *history)
 {
-    return history->day.word_count;
+    return history->day.stride;
+}
+
+static status trace_shares(const sun_history *history, const ray_scene *scene, uint32_t count,
+                           device_memory hit, device_memory lit)
+{
+    const world_record world = ray_scene_world(scene);
+    const crossing_world around = bodies_world(history->dimming);
+    const device_memory nodes = bodies_nodes(history->dimming);
+    const device_memory blocks = bodies_blocks(history->dimming);
+    const device_memory medium = bodies_medium(history->dimming);
+    const device_memory levels = bodies_levels(history->dimming);
+
+    return device_run(history->dev, "sun_share",
+                      shape2(count, SUN_HISTORY_SHARES * history->day.word_count), ARG(count),
+                      ARG(history->day), ARG(world), ARG(around), ARG(nodes), ARG(blocks),
+                      ARG(medium), ARG(levels), ARG(history->sun), ARG(hit), ARG(lit));
 }
 
 status sun_history_trace(const sun_history *history, const ray_scene *scene, device_memory facets,
                          uint32_t count, device_memory hit, device_memory out_lit)
 {
+    status rc = STATUS_OK;
     const world_record world = ray_scene_world(scene);
     const device_memory nodes = ray_scene_nodes(scene), blocks = ray_scene_blocks(scene);
 
-    return device_run(history->dev, "sun_history",
-                      device_ray_shape(history->dev, count, history->day.word_count), ARG(count),
-                      ARG(history->day), ARG(world), ARG(nodes), ARG(blocks), ARG(facets),
-                      ARG(history->sun), ARG(hit), ARG(out_lit));
+    TRY(device_run(history->dev, "sun_history",
+                   device_ray_shape(history->dev, count, history->day.word_count), ARG(count),
+                   ARG(history->day), ARG(world), ARG(nodes), ARG(blocks), ARG(facets),
+                   ARG(history->sun), ARG(hit), ARG(out_lit)));
+    if (history->dimming) TRY(trace_shares(history, scene, count, hit, out_lit));
+out:
+    return rc;
 }
 
 status sun_history_times(const sun_history *history, uint32_t count, uint32_t first_plane,

@@ -3,6 +3,7 @@
 #ifndef SUN_HISTORY_H
 #define SUN_HISTORY_H
 
+#include "bodies.h"
 #include "ray_scene.h"
 #include "site.h"
 
@@ -10,18 +11,23 @@ typedef struct sun_history sun_history;
 
 /* Computes where the sun stood. The last step is the first at or after the site's time.
  *   origin_s   UTC time in seconds of step 0, before the site's time
- *   step_s     divides an hour */
+ *   step_s     divides an hour
+ *   dimming    bodies that let a share of the sun through, which is told behind the bits; NULL: none */
 status sun_history_open(sun_history **out, device *dev, const site *place, double origin_s,
-                        double step_s);
+                        double step_s, const bodies *dimming);
 void sun_history_free(sun_history *history);
 
 /* Steps of 24 hours. Step k of the weather has bit k % slots. */
 uint32_t sun_history_slots(const sun_history *history);
 
+<<<<<<< host/sun_history.h
+/* 32-bit words that hold the bits, and shares, of a point. */
+=======
 /* Number of the last step, and when it is: UTC, since 1970. */
 long sun_history_last(const sun_history *history, double *out_time_s);
 
 /* 32-bit words that hold the bits of a point. */
+>>>>>>> /tmp/v/new
 uint32_t sun_history_words(const sun_history *history);
 
 /* Casts the rays.

@@ -20,17 +20,17 @@ struct temperature {
 };
 
 /* Without weather the sun's history has the steps of 15 minutes that the thesis allows. */
-static status open_sun_history(temperature *t, const scene *s)
+static status open_sun_history(temperature *t, const scene *s, const bodies *dimming)
 {
     const weather *w = s->history;
     const double day_before_s = 86400.0, quarter_hour_s = 900.0;
 
     if (!w)
         return sun_history_open(&t->sun, t->dev, &s->place,
-                                site_midnight_s(&s->place) - day_before_s, quarter_hour_s);
+                                site_midnight_s(&s->place) - day_before_s, quarter_hour_s, dimming);
     return sun_history_open(&t->sun, t->dev, &s->place,
                             weather_origin_s(w, &s->place) + 3600.0 * w->record[0].time_h,
-                            w->interval_s);
+                            w->interval_s, dimming);
 }
 
 static status open_model(temperature *t, const scene *s)
@@ -192,14 +192,15 @@ out:
 }
 
 status temperature_open(temperature **out, device *dev, const scene *s, const ray_scene *rays,
-                        device_memory facets, const facet_record *facet, size_t facet_count)
+                        const bodies *dimming, device_memory facets, const facet_record *facet,
+                        size_t facet_count)
 {
     status rc = STATUS_OK;
     temperature *t = calloc(1, sizeof *t);
 
     NEED(t, STATUS_MEMORY, "no memory for temperatures");
     *t = (temperature){.dev = dev, .facet = facet, .facet_count = facet_count, .facets = facets};
-    TRY(open_sun_history(t, s));
+    TRY(open_sun_history(t, s, dimming));
     TRY(warm_facets(t, s, rays));
     *out = t;
     t = NULL;

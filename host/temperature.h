@@ -3,6 +3,7 @@
 #ifndef TEMPERATURE_H
 #define TEMPERATURE_H
 
+#include "bodies.h"
 #include "ray_scene.h"
 #include "scene.h"
 
@@ -13,7 +14,8 @@ typedef struct temperature temperature;
  * and shadow. Scene, rays, device and memory must outlive it.
  *   facet, facets   facet_record, shape (facet_count), the ground's last, here and on the device */
 status temperature_open(temperature **out, device *dev, const scene *s, const ray_scene *rays,
-                        device_memory facets, const facet_record *facet, size_t facet_count);
+                        const bodies *dimming, device_memory facets, const facet_record *facet,
+                        size_t facet_count);
 void temperature_free(temperature *t);
 
 /* float, shape (facet_count). */

@@ -9,12 +9,20 @@
 
 /* 1 or 0 for facets first .. first + LANES_WIDTH - 1.
  *   sunlit   shape (span.sunlit_words, span.facet_count): bit `slot % 32` of word `slot / 32` is that
- *            of the steps slot, slot + period ...; not read without words: always lit */
+ *            of the steps slot, slot + period ...; words beyond those bits hold a byte for every slot:
+ *            its share of 255; not read without words: always lit */
 static inline lanes lit_at(global const uint *sunlit, thermal_span span, uint first, uint step)
 {
     const uint slot = span.sunlit_period ? step % span.sunlit_period : step;
 
     if (span.sunlit_words == 0) return (lanes)1.0f;
+    const uint bit_words = (span.sunlit_period + 31) / 32;
+    if (bit_words > 0 && span.sunlit_words > bit_words) {
+        const size_t row = bit_words + slot / 4;
+        const lanes_bits four =
+            lanes_load_bits(sunlit + row * span.facet_count, first, span.facet_count);
+        return lanes_of_bits(four >> (slot % 4 * 8) & 255u) / 255.0f;
+    }
     const lanes_bits word =
         lanes_load_bits(sunlit + (size_t)(slot / 32) * span.facet_count, first, span.facet_count);
     return lanes_of_bits(word >> (slot % 32) & 1u);

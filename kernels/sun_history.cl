@@ -23,8 +23,8 @@ static uint towards_sun(const world_record *world, const hit_record *at, const f
  * Launch: (count / RAY_LANES, rounded up; day.word_count).
  * sun: shape (32 day.word_count, 4), by slot: unit vector towards the sun, and 0; z 0 where the sun
  *   is down or the day has no such slot
- * facets: per facet, the ground's too; hit: (count); lit: (count, day.word_count). The ground plane
- *   is never in shadow. */
+ * facets: per facet, the ground's too; hit: (count); lit: (count, day.stride), the bits of which are
+ *   written. The ground plane is never in shadow. */
 kernel void sun_history(const uint count, const sun_day day, const world_record world,
                         global const bvh_node *nodes, global const bvh_block *blocks,
                         global const facet_record *facets, global const float *sun,
@@ -55,5 +55,5 @@ kernel void sun_history(const uint count, const sun_day day, const world_record 
         const uint reached = faced & ~ray_packet_any(nodes, blocks, &packet);
         for (uint i = 0; i < lanes; i++) bits[i] |= (reached >> i & 1u) << slot;
     }
-    for (uint i = 0; i < lanes; i++) lit[(size_t)(first + i) * day.word_count + word] = bits[i];
+    for (uint i = 0; i < lanes; i++) lit[(size_t)(first + i) * day.stride + word] = bits[i];
 }

@@ -1,6 +1,7 @@
 /* Sun history: at which steps of the last 24 hours the sun reached a point, a bit each. A day's steps
- * are its slots: step k, counted from the weather's first record, has slot k % slot_count. Thesis
- * 2.2.1. */
+ * are its slots: step k, counted from the weather's first record, has slot k % slot_count. In a scene
+ * with transmissive bodies a byte each, behind the bits, tells what share of the sun they let through,
+ * 255 all of it: four slots a word. Thesis 2.2.1, eq. 2.4-4. */
 #ifndef SUN_HISTORY_KERNEL_H
 #define SUN_HISTORY_KERNEL_H
 
@@ -13,9 +14,13 @@ typedef struct sun_day {
     uint nearest;    /* slot of the step nearest to the image's time */
     float since_min; /* from that step to the image's time, may be negative */
     float step_min;
-    uint unused[3];
+    uint stride; /* words of a point: its bits, and in a scene with bodies its shares */
+    uint unused[2];
 } sun_day;
 RECORD_SIZE(sun_day, 32);
+
+/* Words of shares for every word of bits. */
+#define SUN_HISTORY_SHARES 8u
 
 #ifdef __OPENCL_C_VERSION__
 

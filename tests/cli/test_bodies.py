@@ -163,3 +163,41 @@ def test_more_than_four_transmissive_materials_are_refused(program, tmp_path):
                           for i in range(5)]
 
     assert "expected 4 of them or fewer" in refusal(program, tmp_path, **scene)
+
+
+MATTER = {"emissivity": .93, "density_kg_m3": 2114.0, "specific_heat_j_kg_k": 920.0,
+          "conductivity_w_m_k": .689, "thickness_cm": 5.0, "exposed_area": -.5}
+
+
+def warm_planes(program, folder, cloud):
+    """The ground below a box 10 m above it, after a summer's day; cloud: what the box is made of."""
+    folder.mkdir()
+    scene = under(box((-20, -20, 10), (20, 20, 14)))
+    scene["material"] = [{"name": "wall", **MATTER}, {"name": "cloud", **cloud}]
+    return program.render(
+        folder, **scene, render={"thermal": "therm"},
+        site={"time": "1992-06-21T14:00:00-05:00", "longitude_deg": -75.0},
+        weather={"air_temperature_sunrise_c": 15.0, "air_temperature_peak_c": 29.0,
+                 "peak_time_h": 15.0, "relative_humidity_sunrise": .9, "wind_m_s": 2.0},
+        camera={"position_m": [0.0, 0.0, 8.0], "focal_length_mm": 8.0, "pixels": [24, 24]}).planes
+
+
+@pytest.fixture(scope="module")
+def warm(program, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("warm")
+    cloud = lambda per_km: {"extinction_per_km": per_km, "temperature_k": 270.0}
+    made = {"clear": cloud(0.0), "thin": cloud(150.0), "dense": cloud(1e6), "opaque": MATTER}
+    return {name: warm_planes(program, folder / name, of) for name, of in made.items()}
+
+
+def test_ground_below_a_dense_cloud_is_as_cold_as_below_a_roof(warm):
+    assert warm["dense"]["temperature_c"] == pytest.approx(warm["opaque"]["temperature_c"],
+                                                           abs=1e-3)
+
+
+def test_ground_below_a_thin_cloud_is_between_sun_and_shade(warm):
+    shade = warm["dense"]["sunlit"] == 0
+
+    assert shade.sum() > 50
+    assert (warm["thin"]["temperature_c"] < warm["clear"]["temperature_c"] - 1)[shade].all()
+    assert (warm["thin"]["temperature_c"] > warm["dense"]["temperature_c"] + 1)[shade].all()

@@ -12,14 +12,14 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import cases  # noqa: E402
 
 DAY = np.dtype([("slot_count", "u4"), ("word_count", "u4"), ("nearest", "u4"),
-                ("since_min", "f4"), ("step_min", "f4"), ("unused", "u4", 3)])
+                ("since_min", "f4"), ("step_min", "f4"), ("stride", "u4"), ("unused", "u4", 2)])
 SLOTS, WORDS = 96, 3
 UP = (0, 0, 1)
 
 
 def a_day(nearest=0, since_min=0.0):
     day = np.zeros(1, DAY)
-    day[0] = (SLOTS, WORDS, nearest, since_min, 15.0, (0, 0, 0))
+    day[0] = (SLOTS, WORDS, nearest, since_min, 15.0, WORDS, (0, 0))
     return day
 
 

@@ -16,16 +16,20 @@ ASPHALT = {"density_kg_m3": 2114.0, "specific_heat_j_kg_k": 920.0, "conductivity
 
 
 def launch(opencl, kernel, width, facets, materials, forcing, *, first=0, rows=None, weight=1.0,
-           step_s=STEP_S, lit=None, period=0, power=None):
+           step_s=STEP_S, lit=None, share=None, period=0, power=None):
     """Temperatures of shape (rows, facets); `width` facets a work-item."""
     context = opencl.context
     rows = len(forcing) if rows is None else rows
-    words = 0 if lit is None else (len(lit) + 31) // 32
+    bit_words = 0 if lit is None else (len(lit) + 31) // 32
+    words = bit_words * (1 if share is None else 9)
     span = np.zeros(1, SPAN)
     span[0] = (len(facets), first, rows, words, weight, step_s, period, len(forcing))
     copy = cl.mem_flags.COPY_HOST_PTR
     memory = [cl.Buffer(context, copy, hostbuf=a) for a in (facets, materials, forcing)]
-    sunlit = None if lit is None else cl.Buffer(context, copy, hostbuf=packed(lit, words))
+    mask = None if lit is None else packed(lit, bit_words)
+    if share is not None:
+        mask = np.concatenate([mask, packed_bytes(share, words - bit_words)])
+    sunlit = None if lit is None else cl.Buffer(context, copy, hostbuf=mask)
     out = np.empty((rows, len(facets)), np.float32)
     target = cl.Buffer(context, cl.mem_flags.WRITE_ONLY, out.nbytes)
     kernel(opencl.queue, ((len(facets) + width - 1) // width,), None, span[0], *memory, sunlit,
@@ -48,6 +52,14 @@ def packed(lit, words):
     steps[: len(lit)] = lit
     bits = steps.reshape(words, 32, -1) << np.arange(32, dtype=np.uint64)[None, :, None]
     return np.ascontiguousarray(bits.sum(axis=1).astype(np.uint32))
+
+
+def packed_bytes(share, words):
+    """Byte slot % 4 of word slot / 4, shape (words, facets); share: (slots, facets)."""
+    slots = np.zeros((words * 4, share.shape[1]), np.uint32)
+    slots[: len(share)] = share
+    return (slots.reshape(words, 4, -1) << np.arange(0, 32, 8, dtype=np.uint32)[:, None]).sum(
+        axis=1, dtype=np.uint32)
 
 
 def towards(slope_deg, azimuth_deg):
@@ -324,3 +336,15 @@ def test_a_two_sided_facet_takes_sun_from_behind(thermal):
     one, two = thermal(facets, materials, forcing)[0]
 
     assert two - one == pytest.approx(0.5 * 200.0 / 10.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("share, direct_w_m2", [(255, 800), (102, 320), (0, 0)])
+def test_a_share_of_the_sun_heats_as_that_much_less_of_it(thermal, share, direct_w_m2):
+    facets, materials = one_facet(.05, -.4, solar_absorptance=.8, thermal_emissivity=.9)
+    shares = np.full((96, 1), share)
+
+    dimmed = thermal(facets, materials, steady_forcing(150, direct_w_m2=800.0),
+                     lit=np.ones((96, 1), np.uint64), share=shares, period=96)
+
+    clear = thermal(facets, materials, steady_forcing(150, direct_w_m2=direct_w_m2))
+    assert dimmed == pytest.approx(clear, abs=1e-3)  # float32 kelvin
