@@ -20,14 +20,10 @@ void sun_history_free(sun_history *history);
 /* Steps of 24 hours. Step k of the weather has bit k % slots. */
 uint32_t sun_history_slots(const sun_history *history);
 
-<<<<<<< host/sun_history.h
-/* 32-bit words that hold the bits, and shares, of a point. */
-=======
 /* Number of the last step, and when it is: UTC, since 1970. */
 long sun_history_last(const sun_history *history, double *out_time_s);
 
 /* 32-bit words that hold the bits of a point. */
->>>>>>> /tmp/v/new
 uint32_t sun_history_words(const sun_history *history);
 
 /* Casts the rays.
