@@ -101,10 +101,18 @@ static void print_sensor(const scene *s)
         range += d[k] * d[k];
     }
     range = sqrt(range);
-    printf("camera      %d x %d pixels, lens %g mm, %.6g m from its target, %.3f deg above it, "
-           "pixel %.4g m there\n",
-           v->columns, v->rows, v->focal_length_mm, range, asin(d[2] / range) * 180.0 / M_PI,
-           36.0 / v->focal_length_mm * range / v->columns);
+    const double width_m = v->width_m > 0.0 ? v->width_m : 36.0 / v->focal_length_mm * range;
+    printf("camera      %d x %d pixels, ", v->columns, v->rows);
+    if (v->crop.columns)
+        printf("from column %d, row %d of %d x %d, ", v->crop.column, v->crop.row, v->crop.columns,
+               v->crop.rows);
+    if (v->width_m > 0.0)
+        printf("orthographic, %g m wide, ", v->width_m);
+    else
+        printf("lens %g mm, ", v->focal_length_mm);
+    printf("%.6g m from its target, %.3f deg above it, pixel %.4g m there\n", range,
+           asin(d[2] / range) * 180.0 / M_PI,
+           width_m / (v->crop.columns ? v->crop.columns : v->columns));
     for (uint32_t i = 0; i < s->band_count; i++) {
         const band *b = &s->bands[i];
         printf("band        %s, ", b->name);

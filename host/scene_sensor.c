@@ -21,6 +21,44 @@ static void read_pixels(scene_table *t, view *camera)
                    "camera.pixels: expected whole numbers, columns and rows");
 }
 
+/* [column, row, columns, rows] of the frame. */
+static void read_crop(scene_table *t, view *camera)
+{
+    double part[4];
+
+    if (!scene_table_numbers(t, "crop", 4, 0.0, PIXEL_LIMIT, part)) return;
+    for (int i = 0; i < 2; i++) {
+        const int size = i ? camera->rows : camera->columns;
+        if (part[i] == floor(part[i]) && part[2 + i] == floor(part[2 + i]) && part[2 + i] >= 1.0 &&
+            part[i] + part[2 + i] <= size)
+            continue;
+        scene_fail(t->reader, toml_node_get(t->node, "crop"),
+                   "camera.crop: found [%g, %g, %g, %g], expected whole numbers, column and row, "
+                   "columns and rows, within %d x %d pixels",
+                   part[0], part[1], part[2], part[3], camera->columns, camera->rows);
+        return;
+    }
+    camera->crop = (view_crop){(int)part[0], (int)part[1], camera->columns, camera->rows};
+    camera->columns = (int)part[2];
+    camera->rows = (int)part[3];
+}
+
+static void read_projection(scene_table *t, view *camera)
+{
+    static const char *const projections[] = {"perspective", "orthographic"};
+    int projection = 0;
+
+    scene_table_word(t, "projection", projections, 2, &projection);
+    if (projection == 1) {
+        scene_table_require(t, "width_m", "what the columns span, m");
+        scene_table_number(t, "width_m", 1e-3, FARTHEST_M, &camera->width_m);
+        return;
+    }
+    if (!(camera->focal_length_mm > 0.0))
+        scene_table_require(t, "focal_length_mm", "the lens of a 35 mm camera, mm");
+    scene_table_number(t, "focal_length_mm", 1.0, 1e7, &camera->focal_length_mm);
+}
+
 void scene_read_camera(scene_reader *reader)
 {
     scene_table t = scene_table_open(reader, toml_node_get(reader->root, "camera"), "camera");
@@ -33,14 +71,14 @@ void scene_read_camera(scene_reader *reader)
     } else {
         scene_table_require(&t, "position_m", "[east, north, up], or view = a .adv file");
         scene_table_require(&t, "target_m", "[east, north, up]");
-        scene_table_require(&t, "focal_length_mm", "the lens of a 35 mm camera, mm");
         scene_table_require(&t, "pixels", "[columns, rows]");
     }
     scene_table_numbers(&t, "position_m", 3, -FARTHEST_M, FARTHEST_M, camera->position_m);
     scene_table_numbers(&t, "target_m", 3, -FARTHEST_M, FARTHEST_M, camera->target_m);
-    scene_table_number(&t, "focal_length_mm", 1.0, 1e7, &camera->focal_length_mm);
+    read_projection(&t, camera);
     scene_table_number(&t, "twist_deg", -360.0, 360.0, &camera->twist_deg);
     read_pixels(&t, camera);
+    read_crop(&t, camera);
     scene_table_close(&t);
     if (t.node && reader->failure_count == failures &&
         !memcmp(camera->position_m, camera->target_m, sizeof camera->target_m))

@@ -4,6 +4,7 @@
 #include "record_file.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #define DEGREES (M_PI / 180.0)
@@ -117,9 +118,18 @@ status view_write_table(const view *v, const char *path)
             "[camera]\nposition_m = [%.17g, %.17g, %.17g]\ntarget_m = [%.17g, %.17g, %.17g]\n",
             v->position_m[0], v->position_m[1], v->position_m[2], v->target_m[0], v->target_m[1],
             v->target_m[2]);
-    fprintf(output_file_stream(file),
-            "twist_deg = %.17g\nfocal_length_mm = %.17g\npixels = [%d, %d]\n", v->twist_deg,
-            v->focal_length_mm, v->columns, v->rows);
+    fprintf(output_file_stream(file), "twist_deg = %.17g\n", v->twist_deg);
+    if (v->width_m > 0.0)
+        fprintf(output_file_stream(file), "projection = \"orthographic\"\nwidth_m = %.17g\n",
+                v->width_m);
+    else
+        fprintf(output_file_stream(file), "focal_length_mm = %.17g\n", v->focal_length_mm);
+    fprintf(output_file_stream(file), "pixels = [%d, %d]\n",
+            v->crop.columns ? v->crop.columns : v->columns,
+            v->crop.columns ? v->crop.rows : v->rows);
+    if (v->crop.columns)
+        fprintf(output_file_stream(file), "crop = [%d, %d, %d, %d]\n", v->crop.column, v->crop.row,
+                v->columns, v->rows);
     TRY(output_file_commit(file));
 out:
     output_file_free(file);
@@ -164,16 +174,21 @@ static void view_axes(const view *v, double sight[3], double right[3], double up
 camera_record view_camera(const view *v, const double origin_m[3])
 {
     double sight[3], right[3], up[3];
-    const double pixel = film_width_mm / v->focal_length_mm / v->columns;
-    camera_record camera;
+    const int columns = v->crop.columns ? v->crop.columns : v->columns;
+    const int rows = v->crop.columns ? v->crop.rows : v->rows;
+    const bool flat = v->width_m > 0.0;
+    const double pixel = (flat ? v->width_m : film_width_mm / v->focal_length_mm) / columns;
+    camera_record camera = {.first_column = (uint32_t)v->crop.column,
+                            .first_row = (uint32_t)v->crop.row,
+                            .is_orthographic = flat};
 
     view_axes(v, sight, right, up);
     for (int i = 0; i < 3; i++) {
-        camera.position[i] = (float)(v->position_m[i] - origin_m[i]);
+        const double to_corner = 0.5 * pixel * (up[i] * rows - right[i] * columns);
+        camera.position[i] = (float)(v->position_m[i] - origin_m[i] + (flat ? to_corner : 0.0));
         camera.across[i] = (float)(right[i] * pixel);
         camera.down[i] = (float)(-up[i] * pixel);
-        camera.corner[i] =
-            (float)(sight[i] + 0.5 * pixel * (up[i] * v->rows - right[i] * v->columns));
+        camera.corner[i] = (float)(sight[i] + (flat ? 0.0 : to_corner));
     }
     return camera;
 }

@@ -37,7 +37,7 @@ kernel void crossing(const radiometry_record frame, const camera_record camera,
     transmission_path found[TRANSMISSION_PATHS] = {none, none, none, none};
     ray r = {.limit = at.facet == RECORD_NONE ? INFINITY : at.range_m};
 
-    for (int k = 0; k < 3; k++) r.origin[k] = camera.position[k];
+    camera_origin(camera, frame.columns, frame.first_pixel + pixel, r.origin);
     pixel_ray(camera, frame.columns, frame.first_pixel + pixel, r.direction);
     found[TRANSMISSION_CAMERA] = crossing_path(&bodies, nodes, blocks, medium, level, &r);
     if (at.facet != RECORD_NONE && frame.sun[2] > 0.0f) {

@@ -1,3 +1,4 @@
+#include "camera.h"
 #include "ray.h"
 
 /* Replaces the background of specular targets by what the mirrored ray meets (thesis 2.5.6): a facet
@@ -19,10 +20,8 @@ kernel void mirror(const uint count, const camera_record camera, const world_rec
     background_record back = {.shape_factor = 1.0f, .material = RECORD_NONE, .facet = RECORD_NONE};
     float direction[3], towards = 0.0f;
 
-    for (int k = 0; k < 3; k++) {
-        direction[k] = at.point[k] - camera.position[k];
-        towards += direction[k] * at.normal[k];
-    }
+    camera_towards(camera, at.point, direction);
+    for (int k = 0; k < 3; k++) towards += direction[k] * at.normal[k];
     for (int k = 0; k < 3; k++) direction[k] -= 2.0f * towards * at.normal[k];
     vstore3(normalize(vload3(0, direction)), 0, direction);
     const ray r = ray_leaving(&world, at.point, at.normal, direction);

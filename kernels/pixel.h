@@ -2,6 +2,7 @@
 #ifndef PIXEL_H
 #define PIXEL_H
 
+#include "camera.h"
 #include "sky.h"
 
 /* Interactions of a ray with the scene, as the plane `interaction` holds them (Figure 3-10). */
@@ -47,11 +48,9 @@ static inline void pixel_direction(const float *from, const float *to, float *ou
 /* Unit direction of the ray of a pixel. */
 static inline void pixel_ray(camera_record camera, uint columns, uint pixel, float *out)
 {
-    const float column = (float)(pixel % columns) + 0.5f, row = (float)(pixel / columns) + 0.5f;
     float length;
 
-    for (int k = 0; k < 3; k++)
-        out[k] = camera.corner[k] + column * camera.across[k] + row * camera.down[k];
+    camera_direction(camera, columns, pixel, out);
     length = sqrt(pixel_dot(out, out));
     for (int k = 0; k < 3; k++) out[k] /= length;
 }

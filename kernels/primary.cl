@@ -1,3 +1,4 @@
+#include "camera.h"
 #include "ray_packet.h"
 
 /* The pixels of a ray packet: a square of 4 x 4, which keeps the rays together. */
@@ -23,12 +24,10 @@ kernel void primary(const uint count, const uint first_pixel, const uint columns
         const uint column = left + i % PRIMARY_SIDE, row = top + i / PRIMARY_SIDE;
         pixel[i] = row * columns + column - first_pixel;
         if (column >= columns || pixel[i] >= count) continue;
-        const float3 direction =
-            normalize(vload3(0, camera.corner) + ((float)column + .5f) * vload3(0, camera.across) +
-                      ((float)row + .5f) * vload3(0, camera.down));
         ray r = {.limit = MAXFLOAT, .cull_back = world.cull_back};
-        vstore3(vload3(0, camera.position), 0, r.origin);
-        vstore3(direction, 0, r.direction);
+        camera_origin(camera, columns, first_pixel + pixel[i], r.origin);
+        camera_direction(camera, columns, first_pixel + pixel[i], r.direction);
+        vstore3(normalize(vload3(0, r.direction)), 0, r.direction);
         ray_packet_set(&packet, i, &r);
     }
     ray_packet_closest(nodes, blocks, &packet, &hit);

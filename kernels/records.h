@@ -114,14 +114,20 @@ typedef struct background_record {
 RECORD_SIZE(background_record, 48);
 
 /* Pinhole camera: ray of pixel (column, row) from its centre, row 0 on top:
- *   direction = corner + (column + .5) across + (row + .5) down, then normalised. */
+ *   direction = corner + (column + .5) across + (row + .5) down, then normalised.
+ * Orthographic: all directions are `corner`, and position + (column + .5) across + (row + .5) down is
+ * the ray's origin. The picture may be a part of the frame: its pixel (0, 0) is the frame's
+ * (first_column, first_row). */
 typedef struct camera_record {
     float position[3];
     float corner[3];
     float across[3];
     float down[3];
+    uint first_column, first_row;
+    uint is_orthographic;
+    uint unused;
 } camera_record;
-RECORD_SIZE(camera_record, 48);
+RECORD_SIZE(camera_record, 64);
 
 /* What all pixels of a frame share in the radiance equations. */
 typedef struct radiometry_record {

@@ -63,7 +63,10 @@ static void shift(view *v, const double by[3], double share)
 /* The camera as the render has it, about its own place. */
 static camera_record camera_at(const view *v)
 {
-    return view_camera(v, v->position_m);
+    view whole = *v;
+
+    whole.crop = (view_crop){0};
+    return view_camera(&whole, v->position_m);
 }
 
 static void unit(const float along[3], double out[3])
@@ -107,6 +110,7 @@ void motion_approach(view *v, double factor)
 void motion_lens(view *v, double factor)
 {
     v->focal_length_mm = fmax(0.1, fmin(1e6, v->focal_length_mm * factor));
+    v->width_m /= factor;
 }
 
 void motion_ray(const view *v, double column, double row, double out_enu[3])
@@ -115,7 +119,8 @@ void motion_ray(const view *v, double column, double row, double out_enu[3])
     double length = 0.0;
 
     for (int i = 0; i < 3; i++) {
-        out_enu[i] = (double)c.corner[i] + column * (double)c.across[i] + row * (double)c.down[i];
+        const double aside = column * (double)c.across[i] + row * (double)c.down[i];
+        out_enu[i] = (double)c.corner[i] + (c.is_orthographic ? 0.0 : aside);
         length = hypot(length, out_enu[i]);
     }
     for (int i = 0; i < 3; i++) out_enu[i] /= length;
@@ -125,8 +130,14 @@ void motion_look_at(view *v, double column, double row, double range_m)
 {
     double ray[3];
 
+    const camera_record c = camera_at(v);
+
     motion_ray(v, column, row, ray);
-    for (int i = 0; i < 3; i++) v->target_m[i] = v->position_m[i] + range_m * ray[i];
+    for (int i = 0; i < 3; i++) {
+        const double aside = (double)c.position[i] + column * (double)c.across[i] +
+                             row * (double)c.down[i]; /* of the ray's origin */
+        v->target_m[i] = v->position_m[i] + (c.is_orthographic ? aside : 0.0) + range_m * ray[i];
+    }
 }
 
 void motion_north(const view *v, double *out_right, double *out_down)

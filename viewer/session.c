@@ -173,6 +173,7 @@ static render_look wished_look(const session *s, const session_wish *wish)
     if (wish->has_camera) look.camera = wish->camera;
     look.camera.columns = wish->columns;
     look.camera.rows = wish->rows;
+    look.camera.crop = (view_crop){0}; /* the whole frame */
     look.time_s = wished_time_s(s, wish);
     return look;
 }

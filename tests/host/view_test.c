@@ -129,7 +129,12 @@ static void the_centre_ray_meets_the_target(void **state)
 /* Looking north, 36 mm lens: the picture is as wide as it is away. */
 static void corners_lie_at_half_the_film_over_the_focal_length(void **state)
 {
-    const view v = {{0, 0, 0}, {0, 50, 0}, 0.0, 36.0, 4, 2};
+    const view v = {.position_m = {0, 0, 0},
+                    .target_m = {0, 50, 0},
+                    .twist_deg = 0.0,
+                    .focal_length_mm = 36.0,
+                    .columns = 4,
+                    .rows = 2};
 
     (void)state;
     const camera_record c = view_camera(&v, no_origin);
@@ -142,7 +147,12 @@ static void corners_lie_at_half_the_film_over_the_focal_length(void **state)
 /* A point to the right of the line of sight, 45 degrees down from the south: east. */
 static void what_is_to_the_right_has_a_larger_column(void **state)
 {
-    const view v = {{0, -100, 100}, {0, 0, 0}, 0.0, 36.0, 100, 100};
+    const view v = {.position_m = {0, -100, 100},
+                    .target_m = {0, 0, 0},
+                    .twist_deg = 0.0,
+                    .focal_length_mm = 36.0,
+                    .columns = 100,
+                    .rows = 100};
 
     (void)state;
     const camera_record c = view_camera(&v, no_origin);
@@ -152,7 +162,12 @@ static void what_is_to_the_right_has_a_larger_column(void **state)
 
 static void straight_down_the_top_is_north(void **state)
 {
-    const view v = {{0, 0, 100}, {0, 0, 0}, 0.0, 36.0, 2, 2};
+    const view v = {.position_m = {0, 0, 100},
+                    .target_m = {0, 0, 0},
+                    .twist_deg = 0.0,
+                    .focal_length_mm = 36.0,
+                    .columns = 2,
+                    .rows = 2};
 
     (void)state;
     const camera_record c = view_camera(&v, no_origin);
@@ -163,7 +178,12 @@ static void straight_down_the_top_is_north(void **state)
 
 static void straight_up_the_top_is_north(void **state)
 {
-    const view v = {{0, 0, 0}, {0, 0, 100}, 0.0, 36.0, 2, 2};
+    const view v = {.position_m = {0, 0, 0},
+                    .target_m = {0, 0, 100},
+                    .twist_deg = 0.0,
+                    .focal_length_mm = 36.0,
+                    .columns = 2,
+                    .rows = 2};
 
     (void)state;
     const camera_record c = view_camera(&v, no_origin);
@@ -175,7 +195,12 @@ static void straight_up_the_top_is_north(void **state)
 /* A quarter turn counterclockwise brings what was at the right to the top. */
 static void a_positive_twist_turns_the_picture_counterclockwise(void **state)
 {
-    const view v = {{0, 0, 0}, {0, 50, 0}, 90.0, 36.0, 2, 2};
+    const view v = {.position_m = {0, 0, 0},
+                    .target_m = {0, 50, 0},
+                    .twist_deg = 90.0,
+                    .focal_length_mm = 36.0,
+                    .columns = 2,
+                    .rows = 2};
 
     (void)state;
     const camera_record c = view_camera(&v, no_origin);
@@ -186,7 +211,12 @@ static void a_positive_twist_turns_the_picture_counterclockwise(void **state)
 
 static void the_camera_stands_relative_to_the_origin(void **state)
 {
-    const view v = {{1000, 2000, 30}, {1000, 2050, 30}, 0.0, 36.0, 2, 2};
+    const view v = {.position_m = {1000, 2000, 30},
+                    .target_m = {1000, 2050, 30},
+                    .twist_deg = 0.0,
+                    .focal_length_mm = 36.0,
+                    .columns = 2,
+                    .rows = 2};
     const double origin[3] = {900, 1800, 10};
 
     (void)state;
@@ -201,7 +231,12 @@ static void the_camera_stands_relative_to_the_origin(void **state)
 static void a_written_view_is_read_back_to_the_last_bit(void **state)
 {
     (void)state;
-    const view v = {{1.0 / 3.0, -200.1, 1e4 / 7.0}, {-0.1, 2.2, 0.3}, 12.3, 35.7, 640, 481};
+    const view v = {.position_m = {1.0 / 3.0, -200.1, 1e4 / 7.0},
+                    .target_m = {-0.1, 2.2, 0.3},
+                    .twist_deg = 12.3,
+                    .focal_length_mm = 35.7,
+                    .columns = 640,
+                    .rows = 481};
     view back;
 
     assert_int_equal(view_write(&v, text_file("")), STATUS_OK);

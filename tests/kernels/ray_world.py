@@ -10,7 +10,9 @@ WORLD = np.dtype([("ground_facet", "u4"), ("ground_z_m", "f4"), ("offset_m", "f4
 BACKGROUND = np.dtype([("shape_factor", "f4"), ("mean_temperature_k", "f4"), ("material", "u4"),
                        ("facet", "u4"), ("point", "f4", 3), ("normal", "f4", 3),
                        ("met_count", "u4"), ("unused", "u4")])
-CAMERA = np.dtype([(name, "f4", 3) for name in ("position", "corner", "across", "down")])
+CAMERA = np.dtype([(name, "f4", 3) for name in ("position", "corner", "across", "down")]
+                  + [(name, "u4") for name in ("first_column", "first_row", "is_orthographic",
+                                               "unused")])
 FACET = np.dtype([("normal", "f4", 3), ("material", "u4"), ("rest", "u4", 8)])
 MATERIAL = np.dtype([("before", "f4", 9), ("number", "u4"), ("unused", "u4", 2)])
 

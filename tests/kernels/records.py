@@ -32,7 +32,8 @@ FORCING = record("air_temperature_k sky_longwave_w_m2 convection_w_m2_k direct_w
 WORLD = record("*ground_facet ground_z_m offset_m *cull_back")
 BACKGROUND = record("shape_factor mean_temperature_k *material *facet point[3] normal[3]"
                     " *met_count *unused")
-CAMERA = record("position[3] corner[3] across[3] down[3]")
+CAMERA = record("position[3] corner[3] across[3] down[3] *first_column *first_row"
+                " *is_orthographic *unused")
 RADIOMETRY = record("*columns *first_pixel *pixel_count *band_count *sample_count *thesis"
                     " *path_count path_zenith_first_deg path_zenith_step_deg *zenith_count"
                     " *azimuth_count zenith_step_deg azimuth_step_deg sun[3] *wants_parts *unused[3]")
