@@ -1,6 +1,7 @@
 #include "sonde_profile.h"
 
 #include "lowtran.h"
+#include "model_sonde.h"
 #include "sonde.h"
 
 #include <math.h>
@@ -13,11 +14,17 @@
 #define GAP_K_PER_KM .05   /* what a wide gap counts as, where the lines are straight */
 #define DEW_POINT_SHARE .3 /* of a dew point's deviation, against a temperature's */
 
-/* Altitudes of LOWTRAN's models from which a profile is continued. */
+/* Altitudes of LOWTRAN's models from which a profile is continued; 24 km gives way to a level of the
+ * boundary layer. */
 static const double model_km[] = {5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16, 17, 18,
-                                  19, 20, 21, 22, 23, 24, 25, 30, 35, 40, 45, 50, 70, 100};
+                                  19, 20, 21, 22, 23, 25, 30, 35, 40, 45, 50, 70, 100};
+
+#define LEAST_TOP_M 4000.0 /* one level of LOWTRAN's models below those above */
 
 enum { MODEL_LEVELS = sizeof model_km / sizeof *model_km, OTHER_GASES = 11 };
+
+/* With a level more LOWTRAN gives NaN on a path from an altitude down to the ground. */
+enum { PROFILE_LEVELS = LOWTRAN_LEVELS - 1 };
 
 static status check_reach(const sonde *s, const atmosphere_plan *plan)
 {
@@ -97,6 +104,18 @@ out:
     return rc;
 }
 
+static double least_top_m(const atmosphere_plan *plan)
+{
+    return fmax(LEAST_TOP_M, fmax(plan->inversion_altitude_m, plan->ground_altitude_m + 1000.0));
+}
+
+/* Above the inversion LOWTRAN's model has its own humidity. */
+static void leave_water(sonde *s, double inversion_m)
+{
+    for (size_t i = 0; i < s->count; i++)
+        if (s->level[i].altitude_m > inversion_m) s->level[i].dew_point_k = NAN;
+}
+
 /* How far level i lies off the straight line between two others, in kelvin. */
 static double deviation(const sonde *s, size_t low, size_t i, size_t high)
 {
@@ -159,7 +178,7 @@ static status print_cards(char **out, sonde *s, int model)
     NEED(stream, STATUS_MEMORY, "a profile");
     while (above < MODEL_LEVELS && model_km[above] * 1000.0 < top_m + MODEL_GAP_M) above++;
     const size_t continued = MODEL_LEVELS - above;
-    thin(s, LOWTRAN_LEVELS - continued);
+    thin(s, PROFILE_LEVELS - continued);
     fprintf(stream, "%5d%5d%5d%s\n", (int)(s->count + continued), 0, 0, "RADIOSONDE");
     for (size_t i = 0; i < s->count; i++) print_level(stream, &s->level[i], model);
     for (; above < MODEL_LEVELS; above++) {
@@ -180,12 +199,15 @@ status sonde_profile_cards(char **out, const generation *g)
     const atmosphere_plan *plan = &g->plan;
     sonde *read = NULL, *profile = NULL;
 
-    if (!plan->radiosonde) {
+    if (!plan->radiosonde && plan->inversion_altitude_m <= 0.0) {
         *out = strdup("");
         NEED(*out, STATUS_MEMORY, "a profile");
         goto out;
     }
-    TRY(sonde_read(&read, plan->radiosonde));
+    if (plan->radiosonde)
+        TRY(sonde_read(&read, plan->radiosonde));
+    else
+        TRY(model_sonde_make(&read, plan->model, least_top_m(plan)));
     TRY(check_reach(read, plan));
     TRY(cut(&profile, read, plan));
     if (plan->inversion_altitude_m > 0.0) {
@@ -193,6 +215,7 @@ status sonde_profile_cards(char **out, const generation *g)
         const sonde_level inversion = sonde_at(read, plan->inversion_altitude_m);
         bend(profile, &ground, &inversion);
     }
+    if (!plan->radiosonde) leave_water(profile, plan->inversion_altitude_m);
     TRY(print_cards(out, profile, plan->model));
 out:
     sonde_free(profile);

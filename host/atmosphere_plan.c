@@ -30,11 +30,7 @@ static void read_air(atmosphere_plan *plan, scene_table *t)
     scene_table_require(t, "model", "\"midlatitude-summer\" or another of LOWTRAN's six");
     if (scene_table_word(t, "model", models, COUNT(models), &word)) plan->model = word + 1;
     if (scene_table_has(t, "radiosonde")) scene_table_file(t, "radiosonde", &plan->radiosonde);
-    if (scene_table_number(t, "inversion_altitude_m", 1.0, 1e4, &plan->inversion_altitude_m) &&
-        !plan->radiosonde)
-        scene_fail(t->reader, toml_node_get(t->node, "inversion_altitude_m"),
-                   "%s.inversion_altitude_m: belongs to a radiosonde, expected radiosonde = a file",
-                   toml_node_name(t->node));
+    scene_table_number(t, "inversion_altitude_m", 1.0, 1e4, &plan->inversion_altitude_m);
     if (scene_table_word(t, "aerosol", aerosols, COUNT(aerosols), &word))
         plan->aerosol = aerosol_codes[word];
     scene_table_number(t, "visibility_km", .1, 500.0, &plan->visibility_km);

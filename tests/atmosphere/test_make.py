@@ -185,6 +185,19 @@ def test_a_model_s_own_profile_as_a_radiosonde_changes_nothing(make):
     assert sonde["path"][:, :, :2] == pytest.approx(model["path"][:, :, :2], rel=1e-3)
 
 
+def test_a_sounding_of_hundreds_of_levels_is_thinned(make):
+    model = make()
+    altitude = numpy.arange(0.0, 14.01, 0.05)
+    z, p, t = numpy.array(MODEL_2).T
+    write_sonde(make.folder / "long.csv", [(a, numpy.exp(numpy.interp(a, z, numpy.log(p))), numpy.interp(a, z, t))
+                                           for a in altitude])
+    sonde = make(more='radiosonde = "long.csv"')
+
+    # linear between the model's own levels
+    assert len(sonde["profile"]) <= 34
+    assert sonde["path"][:, :, :2] == pytest.approx(model["path"][:, :, :2], rel=5e-3, abs=1e-9)
+
+
 WYOMING = """72426 Somewhere Observations at 12Z 24 Jun 1987
 
 -----------------------------------------------------------------------------
@@ -228,6 +241,32 @@ wind_m_s = 2.0
     assert numpy.interp(1.0, *result["profile"][:4].T) == pytest.approx((302.15 + 285.15) / 2, abs=0.05), at_1_km
 
 
+def test_the_hour_s_weather_bends_a_model_s_profile_too(make):
+    weather = 'inversion_altitude_m = 1500.0\n[weather]\nair_temperature_sunrise_c = 15.0\n' \
+              'air_temperature_peak_c = 29.0\npeak_time_h = 15.0\nrelative_humidity_sunrise = 0.9\nwind_m_s = 2.0\n'
+    result = make(time="1987-06-24T15:00:00-05:00", more=weather)
+    at_inversion = (289.7 + 285.2) / 2  # of the model, between 1 and 2 km
+    levels = dict(result["profile"].tolist())
+
+    assert levels[0] == pytest.approx(302.15, abs=0.05)
+    assert levels[1] == pytest.approx(302.15 + (at_inversion - 302.15) / 1.5, abs=0.05)
+    assert levels[1.5] == pytest.approx(at_inversion, abs=0.01)
+    assert [levels[z] for z, _, t in MODEL_2[2:]] == [t for _, _, t in MODEL_2[2:]]
+
+
+def test_a_model_bent_to_its_own_surface_stays_as_it_is(make):
+    # mid-latitude summer: 294.2 K and 14 g/m3 of water at sea level (McClatchey and others 1972): 19.0 hPa,
+    # and 23.4 hPa saturate 20 C
+    weather = 'inversion_altitude_m = 1000.0\n[weather]\nair_temperature_sunrise_c = 20.0\n' \
+              'air_temperature_peak_c = 21.05\npeak_time_h = 15.0\nrelative_humidity_sunrise = 0.813\nwind_m_s = 2.0\n'
+    time = "1987-06-24T15:00:00-05:00"
+    model, bent = make(time=time), make(time=time, more=weather)
+
+    # LOWTRAN's saturation density is good to 1 %
+    assert bent["path"][..., 0] == pytest.approx(model["path"][..., 0], rel=0.01, abs=1e-3)
+    assert bent["integrated"][:, 0] == pytest.approx(model["integrated"][:, 0], rel=0.003)
+
+
 def henyey_greenstein(degrees, g):
     return (1 - g**2) / (4 * numpy.pi * (1 + g**2 - 2 * g * numpy.cos(numpy.radians(degrees))) ** 1.5)
 
@@ -265,7 +304,7 @@ def test_radsig_checks_the_table_too(tmp_path):
     ("[0.0, 60.0, 30.0]", "[0.0, 60.0, 25.0]", "a whole number of steps"),
     ("[atmosphere.generate]", "[atmosphere.generator]", "[atmosphere.generate]: the table is missing"),
     ("[0.0, 60.0, 30.0]", '[0.0, 60.0, 30.0]\nradiosonde = "none.csv"', "none.csv"),
-    ("[0.0, 60.0, 30.0]", "[0.0, 60.0, 30.0]\ninversion_altitude_m = 1500.0", "belongs to a radiosonde"),
+    ("[0.0, 60.0, 30.0]", "[0.0, 60.0, 30.0]\ninversion_altitude_m = 1500.0", "[weather]: the table is missing"),
     ("[0.0, 60.0, 30.0]", '[0.0, 60.0, 30.0]\nphase_function = "henyey-greenstein"', "asymmetry: missing"),
 ])
 def test_a_broken_scene_is_explained(make, atmosphere, old, new, expected):
