@@ -240,7 +240,7 @@ renders: deps all
 ## clean: remove what was built and generated
 clean:
 	rm -rf build out $(SCENES) scenes/library/.emissivity
-	rm -f scenes/*/*.gdb scenes/library/*.ems
+	rm -f scenes/*/*.gdb scenes/*/*.obj scenes/library/*.ems
 
 -include $(patsubst %.o,%.d,$(LIBRARY) $(COMMANDS:%.c=$(BUILD)/%.o) $(VIEWER:%.c=$(BUILD)/%.o)) $(wildcard $(BUILD)/tests/host/*.d) \
 	$(wildcard $(BUILD)/atmosphere/*.d $(BUILD)/bench/rays/*.d)

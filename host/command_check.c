@@ -87,7 +87,9 @@ static void print_materials(const scene *s)
                "%s\n",
                m->record.number, m->name, facets, (double)m->record.solar_absorptance,
                (double)m->record.thermal_emissivity,
-               m->record.specular_share > 0.0f ? "specular" : "diffuse");
+               m->medium != RECORD_NONE          ? "transmissive"
+               : m->record.specular_share > 0.0f ? "specular"
+                                                 : "diffuse");
     }
 }
 
