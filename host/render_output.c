@@ -20,8 +20,8 @@ typedef struct writing {
     const render_plane *planes;
     size_t plane_count;
     output_folder *folder;
-    image *cube, *truth;
-    float **values; /* shape (plane_count): of the image's plane, NULL: not wanted */
+    image *cube, *truth, *sensor; /* sensor: NULL unless the scene has one */
+    float **values;               /* shape (plane_count): of the image's plane, NULL: not wanted */
     char time[SITE_TIME_SIZE];
     image_label *materials;
 } writing;
@@ -114,6 +114,7 @@ out:
 
 static void free_writing(writing *w)
 {
+    image_free(w->sensor);
     image_free(w->truth);
     image_free(w->cube);
     output_folder_free(w->folder);
@@ -208,19 +209,18 @@ out:
 }
 
 /* What the sensor makes of the radiance, if the scene says how. */
-static status write_sensor(const writing *w, device *dev, const image_header *header)
+static status write_sensor(writing *w, device *dev, const image_header *header)
 {
     status rc = STATUS_OK;
     char name[512];
-    image *img = NULL;
 
     if (!w->s->sensor.is_wanted) return STATUS_OK;
-    TRY(render_sensor_write(&img, w->folder, w->s, dev, w->cube, header));
+    TRY(render_sensor_write(&w->sensor, w->folder, w->s, dev, w->cube, header));
     for (uint32_t i = 0; i < w->s->band_count; i++) {
-        const image_plane *plane = image_plane_at(img, i);
-        const quick_look look = {.columns = image_columns(img),
-                                 .rows = image_rows(img),
-                                 .value = image_values(img, i),
+        const image_plane *plane = image_plane_at(w->sensor, i);
+        const quick_look look = {.columns = image_columns(w->sensor),
+                                 .rows = image_rows(w->sensor),
+                                 .value = image_values(w->sensor, i),
                                  .scene = w->s->name,
                                  .time = w->time,
                                  .plane = plane->name,
@@ -229,7 +229,6 @@ static status write_sensor(const writing *w, device *dev, const image_header *he
         TRY(quick_look_write(w->folder, file_name(name, w->s, plane->name, ".png"), &look));
     }
 out:
-    image_free(img);
     return rc;
 }
 
@@ -241,9 +240,6 @@ static status write_files(writing *w, device *dev, double start)
         .key = "radsig materials", .label = w->materials, .label_count = w->s->material_count};
     const image_header header = {description, w->time, &field, 1};
     image *const images[] = {w->cube, w->truth};
-    const render_summary summary = {w->s,           w->options->scene_path, w->planes, w->values,
-                                    w->plane_count, w->materials,           w->r,      dev,
-                                    start};
 
     snprintf(description, sizeof description, "radsig %s, scene %s, %s mode", RADSIG_VERSION,
              w->s->name, w->s->thesis ? "thesis" : "exact");
@@ -254,6 +250,16 @@ static status write_files(writing *w, device *dev, double start)
     TRY(image_finish(w->cube, &header));
     if (w->truth) TRY(image_finish(w->truth, &header));
     TRY(write_sensor(w, dev, &header));
+    const render_summary summary = {.s = w->s,
+                                    .scene_path = w->options->scene_path,
+                                    .planes = w->planes,
+                                    .values = w->values,
+                                    .plane_count = w->plane_count,
+                                    .sensor = w->sensor,
+                                    .materials = w->materials,
+                                    .r = w->r,
+                                    .dev = dev,
+                                    .start_s = start};
     TRY(render_summary_write(w->folder, file_name(name, w->s, "", ".json"), &summary));
     NEED(!*w->options->stop, STATUS_INTERRUPTED, "interrupted");
     TRY(output_folder_commit(w->folder));

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-enum { STAGE_LIMIT = 64, SETTING_COUNT = 3 };
+enum { STAGE_LIMIT = 64, SETTING_COUNT = 5 };
 
 typedef struct lists {
     render_report_band *bands;
@@ -76,12 +76,16 @@ static status gather(lists *l, const render_summary *summary)
     const scene *s = summary->s;
 
     l->bands = calloc(s->band_count, sizeof *l->bands);
-    l->planes = calloc(summary->plane_count, sizeof *l->planes);
+    const size_t sensor_count = summary->sensor ? image_plane_count(summary->sensor) : 0;
+
+    l->planes = calloc(summary->plane_count + sensor_count, sizeof *l->planes);
     l->inputs = calloc(s->input_count, sizeof *l->inputs);
     NEED(l->bands && l->planes && l->inputs, STATUS_MEMORY, "no memory for the report");
     list_bands(l, s);
     for (size_t i = 0; i < summary->plane_count; i++)
         if (summary->values[i]) l->planes[l->plane_count++] = summary->planes[i].plane;
+    for (size_t i = 0; i < sensor_count; i++)
+        l->planes[l->plane_count++] = *image_plane_at(summary->sensor, i);
     TRY(list_inputs(l, s));
     TRY(list_stages(l, summary));
 out:
@@ -98,7 +102,9 @@ status render_summary_write(output_folder *folder, const char *name, const rende
     const render_report_setting settings[SETTING_COUNT] = {
         {"hemisphere_step_deg.zenith", NULL, s->hemisphere_zenith_step_deg},
         {"hemisphere_step_deg.azimuth", NULL, s->hemisphere_azimuth_step_deg},
-        {"radiance", s->bands[0].is_mean ? "mean" : "band", 0.0}};
+        {"radiance", s->bands[0].is_mean ? "mean" : "band", 0.0},
+        {"sensor.seed", NULL, s->sensor.seed},
+        {"sensor.frame", NULL, s->sensor.frame}};
 
     site_format_time(s->place.time_s, s->place.utc_offset_min, time);
     TRY(gather(&l, summary));
@@ -122,7 +128,7 @@ status render_summary_write(output_folder *folder, const char *name, const rende
         .material = summary->materials,
         .material_count = s->material_count,
         .setting = settings,
-        .setting_count = SETTING_COUNT,
+        .setting_count = summary->sensor ? SETTING_COUNT : SETTING_COUNT - 2,
         .input = l.inputs,
         .input_count = s->input_count,
         .warnings = status_warnings_so_far(),

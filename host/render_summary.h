@@ -10,6 +10,7 @@ typedef struct render_summary {
     const render_plane *planes;
     float *const *values; /* shape (plane_count): NULL: the plane was not written */
     size_t plane_count;
+    const image *sensor;          /* NULL: none was written */
     const image_label *materials; /* shape (s->material_count) */
     const render *r;
     device *dev;

@@ -33,6 +33,13 @@ def test_the_sensor_s_radiance_stands_beside_the_clean_one(program, tmp_path):
     assert (noisy.folder / "plane_sensor_lwir.png").exists()
 
 
+def test_the_report_names_the_sensor_s_planes_and_seed(program, tmp_path):
+    report = rendered(program, tmp_path, {"seed": 7, "netd_k": 1.0})[2].report
+
+    assert [p for p in report["planes"] if p["name"] == "sensor_lwir"]
+    assert report["settings"]["sensor.seed"] == 7 and report["settings"]["sensor.frame"] == 0
+
+
 def test_an_empty_table_gives_the_radiance_itself(program, tmp_path):
     clean, sensor, _ = rendered(program, tmp_path, {})
 
