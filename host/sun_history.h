@@ -23,7 +23,7 @@ uint32_t sun_history_slots(const sun_history *history);
 /* Number of the last step, and when it is: UTC, since 1970. */
 long sun_history_last(const sun_history *history, double *out_time_s);
 
-/* 32-bit words that hold the bits of a point. */
+/* 32-bit words that hold the bits, and shares, of a point. */
 uint32_t sun_history_words(const sun_history *history);
 
 /* Casts the rays.

@@ -35,10 +35,11 @@ static status run(full_render *full)
 
     TRY(scene_read(&s, full->path, (const char *const *)full->setting, full->setting_count));
     if (full->has_camera) {
-        const int columns = s->camera.columns, rows = s->camera.rows;
+        const view stated = s->camera;
         s->camera = full->camera;
-        s->camera.columns = columns;
-        s->camera.rows = rows;
+        s->camera.columns = stated.columns;
+        s->camera.rows = stated.rows;
+        s->camera.crop = stated.crop;
     }
     TRY(device_open(&dev, -1));
     TRY(render_output(s, dev, &options));

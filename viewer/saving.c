@@ -44,6 +44,7 @@ void saving_view(preview *p)
 
     v.columns = p->wish.columns;
     v.rows = p->wish.rows;
+    v.crop = (view_crop){0};
     free_stem(p, "view", endings, stem);
     snprintf(path, sizeof path, "%s.toml", stem);
     rc = view_write_table(&v, path);
