@@ -117,9 +117,18 @@ static double steady_noise(const degradation *how, const band_samples *s, bool t
     return hypot(hypot(how->netd_k * slope, how->nesr * s->width_um), read);
 }
 
+/* The same whichever other bands there are (Fowler, Noll and Vo's hash, FNV-1a). */
+static uint32_t key_of(const char *name)
+{
+    uint32_t key = 2166136261u;
+
+    for (; *name; name++) key = (key ^ (unsigned char)*name) * 16777619u;
+    return key;
+}
+
 /* All in the unit of the plane: radiance in band over `unit`. */
 static detector_record record_of(const degraded *d, const band *b, const band_samples *s,
-                                 uint32_t index, bool thesis)
+                                 bool thesis)
 {
     const degradation *how = d->how;
     const double unit = b->is_mean ? s->width_um : 1.0;
@@ -129,7 +138,7 @@ static detector_record record_of(const degraded *d, const band *b, const band_sa
     return (detector_record){
         .seed = how->seed,
         .frame = how->frame,
-        .band = index,
+        .band = key_of(b->name),
         .columns = degraded_columns(d),
         .count = degraded_columns(d) * degraded_rows(d),
         .last_count = how->bits > 0 ? (1u << how->bits) - 1u : 0u,
@@ -145,7 +154,7 @@ static detector_record record_of(const degraded *d, const band *b, const band_sa
     };
 }
 
-status degraded_band(degraded *d, const band *b, uint32_t index, const atmosphere *air, bool thesis,
+status degraded_band(degraded *d, const band *b, const atmosphere *air, bool thesis,
                      const float *radiance, float *out)
 {
     status rc = STATUS_OK;
@@ -157,7 +166,7 @@ status degraded_band(degraded *d, const band *b, uint32_t index, const atmospher
     TRY(build_psf(&p, d->how, samples.centre_um));
     TRY(device_upload(d->dev, d->picture, 0, pixels * sizeof *radiance, radiance));
     TRY(run_blur(d, p));
-    const detector_record record = record_of(d, b, &samples, index, thesis);
+    const detector_record record = record_of(d, b, &samples, thesis);
     TRY(device_run(d->dev, "detector", shape1(record.count), ARG(record), ARG(d->detectors),
                    ARG(d->detectors)));
     TRY(device_download(d->dev, d->detectors, 0, record.count * sizeof *out, out));

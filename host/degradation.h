@@ -1,5 +1,5 @@
 /* Degradation: what a real sensor makes of the radiance that reaches it: spread, sampling, noise,
- * counts. Thesis 4.0 item 9. Reproducible: random numbers are keyed by seed, band, detector and
+ * counts. Thesis 4.0 item 9. Reproducible: random numbers are keyed by seed, name of the band, detector and
  * frame. */
 #ifndef DEGRADATION_H
 #define DEGRADATION_H
@@ -39,11 +39,10 @@ uint32_t degraded_columns(const degraded *d);
 uint32_t degraded_rows(const degraded *d);
 
 /* Degrades one band.
- *   index     of the band, for its random numbers
  *   thesis    Planck's law with the thesis' constants, bands as in band.h
  *   radiance  shape (rows, columns) of the picture, W m-2 sr-1 or its mean per um
  *   out       shape (rows, columns) of the detectors, the same unit */
-status degraded_band(degraded *d, const band *b, uint32_t index, const atmosphere *air, bool thesis,
+status degraded_band(degraded *d, const band *b, const atmosphere *air, bool thesis,
                      const float *radiance, float *out);
 
 #endif

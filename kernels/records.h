@@ -182,12 +182,12 @@ RECORD_SIZE(band_record, 32);
 
 /* A band of the detectors; radiances in the unit of its plane. */
 typedef struct detector_record {
-    uint seed, frame, band;
-    uint columns, count; /* detectors */
-    uint last_count;     /* 2^bits - 1; 0: not quantised */
-    float noise;         /* standard deviation */
-    float shot;          /* variance per radiance */
-    float fixed_gain;    /* standard deviations over the detectors: a share, a radiance */
+    uint seed, frame, band; /* what random numbers are keyed by */
+    uint columns, count;    /* detectors */
+    uint last_count;        /* 2^bits - 1; 0: not quantised */
+    float noise;            /* standard deviation */
+    float shot;             /* variance per radiance */
+    float fixed_gain;       /* standard deviations over the detectors: a share, a radiance */
     float fixed_offset;
     float periodic;                 /* amplitude */
     float waves_across, waves_down; /* per detector */

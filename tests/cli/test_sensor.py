@@ -55,6 +55,16 @@ def test_the_same_seed_gives_the_same_bytes(program, tmp_path, sensor):
     assert data[0] == data[1] and data[0] != data[2]
 
 
+def test_the_noise_of_a_band_does_not_depend_on_the_others(program, tmp_path):
+    bands = [{"name": "mwir", "wavelength_um": [3.0, 5.0]}, BLACK]
+    changes = {"band": bands, "camera": {"pixels": [64, 64]}}
+
+    both = rendered(program, tmp_path / "both", {"netd_k": 1.0}, **changes)
+    alone = rendered(program, tmp_path / "alone", {"netd_k": 1.0}, "--bands", "lwir", **changes)
+
+    assert (both[1] == alone[1]).all() and (both[0] != both[1]).any()
+
+
 @pytest.mark.parametrize("radiance_of, per", [("band", 1), ("mean", 6)])
 def test_a_netd_is_the_noise_of_that_many_kelvin(program, radiance, tmp_path, radiance_of, per):
     clean, sensor, _ = rendered(program, tmp_path, {"netd_k": 0.5, "netd_at_k": 320.0},
