@@ -1,6 +1,6 @@
 /* Degradation: what a real sensor makes of the radiance that reaches it: spread, sampling, noise,
- * counts. Thesis 4.0 item 9. Reproducible: random numbers are keyed by seed, name of the band, detector and
- * frame. */
+ * counts. Thesis 4.0 item 9. Reproducible: random numbers are keyed by seed, name of the band,
+ * detector and frame. */
 #ifndef DEGRADATION_H
 #define DEGRADATION_H
 
