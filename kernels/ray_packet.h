@@ -170,6 +170,7 @@ static inline void ray_packet_closest_leaf(const ray_lanes *f, global const bvh_
     for (uint b = first; b < end; b++)
         for (uint i = 0; i < 8 && blocks[b].facet[i] != RECORD_NONE; i++) {
             const ray_lanes_edges e = ray_lanes_edges_of(f, blocks + b, i, axis);
+            if (ray_lanes_mask(active & e.met) == 0) continue;
             const float16 range = e.distance / e.determinant;
             const uint16 facet = blocks[b].facet[i];
             const int16 met = active & e.met & (range > 0.0f) & (range <= best->range);
@@ -218,6 +219,7 @@ static inline uint ray_packet_open(const ray_lanes *f, global const bvh_node *no
     const uint order = node->order[f->octant];
     const uint mask = coherent ? ray_lanes_reach(f, node, MAXFLOAT) : 0xff;
 
+    UNROLL
     for (int i = 28; i >= 0; i -= 4) {
         const uint child = order >> i & 7;
         if (!(mask >> child & 1)) continue;
