@@ -53,8 +53,8 @@ status image_create(image **out, output_folder *folder, const char *stem, uint32
 /* Shape (rows, columns), row 0 on top; 0 until it is written. */
 float *image_values(image *img, size_t plane);
 
-/* Takes the planes out of the process' memory, as often as wanted: the file has what was written, and
- * it is read again where it is looked at. */
+/* Takes the planes out of the process' memory, as often as wanted: the file has what was written,
+ * and it is read again where it is looked at. */
 void image_unload(image *img);
 
 uint32_t image_columns(const image *img);
@@ -70,8 +70,8 @@ status image_finish(image *img, const image_header *header);
 void image_free(image *img);
 
 /* Writes the planes of all the images, which have one size, as channels of the OpenEXR file `name`,
- * each under its plane's name alone; its unit is the attribute `unit.<channel>`. A cube of more than
- * IMAGE_SPECTRAL planes of ascending wavelength has spectral channels instead, `S0.00403,5000nm`
+ * each under its plane's name alone; its unit is the attribute `unit.<channel>`. A cube of more
+ * than IMAGE_SPECTRAL planes of ascending wavelength has spectral channels instead, `S0.00403,5000nm`
  * (Fichet and others, JCGT 10(3), 2021). */
 status image_write_exr(output_folder *folder, const char *name, image *const *img,
                        size_t image_count, const image_header *header);

@@ -1,6 +1,6 @@
 /* PSF: how optics, motion and detectors spread a point over the pixels. Thesis 4.0 item 9.
- * A picture is constant over each of its pixels; a weight is the share of the spread that falls on a
- * pixel, and weights sum to 1. */
+ * A picture is constant over each of its pixels; a weight is the share of the spread that falls on
+ * a pixel, and weights sum to 1. */
 #ifndef PSF_H
 #define PSF_H
 
@@ -29,8 +29,8 @@ status psf_add_gaussian(psf *p, double fwhm);
 status psf_add_box(psf *p, double width);
 /* A straight smear; the angle is counted from along the columns' numbers towards the top. */
 status psf_add_motion(psf *p, double length, double angle_deg);
-/* Diffraction of a round aperture; `scale` is wavelength times focal ratio over pixel pitch. Cut ten
- * scales from the centre, or PSF_REACH. */
+/* Diffraction of a round aperture; `scale` is wavelength times focal ratio over pixel pitch. Cut
+ * ten scales from the centre, or PSF_REACH. */
 status psf_add_airy(psf *p, double scale);
 status psf_add(psf *p, const psf *spread);
 

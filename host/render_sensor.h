@@ -6,8 +6,8 @@
 #include "image.h"
 #include "scene.h"
 
-/* Degrades the radiances of a cube as the scene's [sensor] says and writes NAME_sensor.img and .hdr,
- * planes `sensor_<band>`, into the folder.
+/* Degrades the radiances of a cube as the scene's [sensor] says and writes NAME_sensor.img and
+ * .hdr, planes `sensor_<band>`, into the folder.
  *   cube     one plane a band
  *   out      with the planes, for pictures; the caller frees it */
 status render_sensor_write(image **out, output_folder *folder, const scene *s, device *dev,

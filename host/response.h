@@ -1,4 +1,5 @@
-/* Response: how a band answers to wavelength, a table scaled to a peak of 1. Thesis 2.4, b(lambda). */
+/* Response: how a band answers to wavelength, a table scaled to a peak of 1. b(lambda) of
+ * thesis 2.4. */
 #ifndef RESPONSE_H
 #define RESPONSE_H
 
@@ -11,8 +12,8 @@ typedef struct response {
 } response;
 
 /* Reads a CSV table. Its first line names both columns, and so the unit: wavelength_um,
- * wavelength_nm or wavenumber_cm1, then response; lines before it that begin with # are passed over.
- * Fails with `path:line` unless wavelengths of .2 to 50 um rise or fall from line to line and
+ * wavelength_nm or wavenumber_cm1, then response; lines before it that begin with # are passed
+ * over. Fails with `path:line` unless wavelengths of .2 to 50 um rise or fall from line to line and
  * responses are 0 or more, one of them above. */
 status response_read(response **out, const char *path);
 

@@ -3,8 +3,8 @@
 /* What falls on every detector: the picture's pixels, each with its weight; beyond its edges the
  * picture goes on as at them.
  * Launch: (record.columns, record.rows) detectors.
- * weight: shape (weight_rows, weight_columns), of the pixels from first_column, first_row on, counted
- *   from the detector's own first pixel
+ * weight: shape (weight_rows, weight_columns), of the pixels from first_column, first_row on,
+ *   counted from the detector's own first pixel
  * picture: shape (picture_rows, picture_columns); out: shape (rows, columns) */
 kernel void blur(const blur_record record, global const float *weight, global const float *picture,
                  global float *out)

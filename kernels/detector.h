@@ -1,5 +1,5 @@
-/* Detector: what noise and quantisation make of a radiance. Thesis 4.0 item 9; Schott and Salvaggio,
- * 1987. */
+/* Detector: what noise and quantisation make of a radiance. Thesis 4.0 item 9; Schott and
+ * Salvaggio, 1987. */
 #ifndef DETECTOR_H
 #define DETECTOR_H
 

@@ -1,5 +1,5 @@
-/* Random: counter-based random numbers, Philox4x32-10 (Salmon and others, SC11, 2011): the same key and
- * counter give the same words on every device, in any order. */
+/* Random: counter-based random numbers, Philox4x32-10 (Salmon and others, SC11, 2011): the same key
+ * and counter give the same words on every device, in any order. */
 #ifndef RANDOM_H
 #define RANDOM_H
 
