@@ -15,19 +15,38 @@ static status make_room(atmosphere *a, size_t levels)
 {
     const size_t n = (size_t)a->point_count, paths = (size_t)a->path_count;
     const size_t sky = (size_t)(a->zenith_count * a->azimuth_count);
-    double **const arrays[] = {&a->wavelength_um,         &a->wavenumber_cm1,
-                               &a->solar_irradiance,      &a->tau1,
-                               &a->path_range_m,          &a->tau2,
-                               &a->path_emitted,          &a->path_scattered,
-                               &a->sky_emitted,           &a->sky_scattered,
-                               &a->sky_emitted_direction, &a->sky_scattered_direction,
-                               &a->level_altitude_m,      &a->level_temperature_k};
-    const size_t sizes[] = {n,         n, n, n,       paths,   paths * n, paths * n,
-                            paths * n, n, n, sky * n, sky * n, levels,    levels};
+    const size_t targets = (size_t)a->target_count, ranges = (size_t)a->range_count;
+    const struct {
+        double **at;
+        size_t size;
+    } arrays[] = {{&a->wavelength_um, n},
+                  {&a->wavenumber_cm1, n},
+                  {&a->solar_irradiance, n},
+                  {&a->tau1, n},
+                  {&a->path_range_m, paths},
+                  {&a->tau2, paths * n},
+                  {&a->path_emitted, paths * n},
+                  {&a->path_scattered, paths * n},
+                  {&a->sky_emitted, n},
+                  {&a->sky_scattered, n},
+                  {&a->sky_emitted_direction, sky * n},
+                  {&a->sky_scattered_direction, sky * n},
+                  {&a->level_altitude_m, levels},
+                  {&a->level_temperature_k, levels},
+                  {&a->target_altitude_m, targets},
+                  {&a->target_range_m, targets * paths},
+                  {&a->target_tau, targets * paths * n},
+                  {&a->target_emitted, targets * paths * n},
+                  {&a->target_scattered, targets * paths * n},
+                  {&a->range_m, ranges},
+                  {&a->range_tau, ranges * n},
+                  {&a->range_emitted, ranges * n},
+                  {&a->range_scattered, ranges * n}};
 
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-        *arrays[i] = calloc(sizes[i], sizeof **arrays[i]);
-        if (!*arrays[i]) return status_set(STATUS_MEMORY, "a radiance database");
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+        if (!arrays[i].size) continue;
+        *arrays[i].at = calloc(arrays[i].size, sizeof **arrays[i].at);
+        if (!*arrays[i].at) return status_set(STATUS_MEMORY, "a radiance database");
     }
     return STATUS_OK;
 }
@@ -56,7 +75,12 @@ status database_grid_make(atmosphere **out, const database_grid *grid)
     a->zenith_count = count_steps(0.0, 90.0, a->zenith_step_deg);
     a->azimuth_count = count_steps(0.0, 360.0, a->azimuth_step_deg);
     a->level_count = (int)grid->level_count;
+    a->target_count = grid->target_count;
+    a->range_count = grid->range_count;
     TRY(make_room(a, grid->level_count));
+    for (int i = 0; i < grid->target_count; i++)
+        a->target_altitude_m[i] = grid->target_altitude_m[i];
+    for (int i = 0; i < grid->range_count; i++) a->range_m[i] = grid->range_m[i];
     for (int i = 0; i < a->point_count; i++) {
         a->wavenumber_cm1[i] = a->wavenumber_max_cm1 - i * a->wavenumber_step_cm1;
         a->wavelength_um[i] = 1e4 / a->wavenumber_cm1[i];

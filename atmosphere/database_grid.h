@@ -15,6 +15,8 @@ typedef struct database_grid {
     double path_zenith_first_deg, path_zenith_last_deg, path_zenith_step_deg;
     double sky_zenith_step_deg, sky_azimuth_step_deg;
     size_t level_count;
+    int target_count, range_count;
+    const double *target_altitude_m, *range_m; /* shapes (target_count), (range_count) */
 } database_grid;
 
 /* Makes a database whose values are 0; atmosphere_free releases it. Fails with STATUS_MEMORY. */

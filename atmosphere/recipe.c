@@ -10,12 +10,13 @@
 #include <string.h>
 
 /* What a run gives. */
-typedef enum kind { KIND_SUN, KIND_PATH, KIND_SKY } kind;
+typedef enum kind { KIND_SUN, KIND_PATH, KIND_SKY, KIND_TARGET, KIND_RANGE, KIND_SOURCE } kind;
 
 typedef struct task {
     kind gives;
     int path, zenith, azimuth; /* which of them */
     int first, last;           /* points of the database, ascending wavelength */
+    int step;                  /* which target or range */
 } task;
 
 struct recipe {
@@ -26,12 +27,14 @@ struct recipe {
     size_t count;
     task *tasks;
     char **decks, **names;
+    double *source; /* of a level path's sunlight: its radiance over 1 - tau, shape (n) */
 };
 
 enum { NAME_SIZE = 64 };
 
 #define KILOMETRE 1000.0
 #define PER_CM2 1e4 /* W cm-2 to W m-2 */
+#define CLEAR 1e-6  /* a share that no path of 20 km lets through undiminished */
 
 static double sample_step(const recipe *r)
 {
@@ -57,9 +60,13 @@ static status write_deck(char **out, const recipe *r, const task *t)
     const atmosphere *a = r->air;
     card_deck deck = recipe_deck_sun(&r->sight);
 
+    const double zenith = a->path_zenith_first_deg + t->path * a->path_zenith_step_deg;
     if (t->gives == KIND_PATH)
-        deck = recipe_deck_path(&r->sight,
-                                a->path_zenith_first_deg + t->path * a->path_zenith_step_deg);
+        deck = recipe_deck_path(&r->sight, r->plan.ground_altitude_m, zenith);
+    if (t->gives == KIND_TARGET)
+        deck = recipe_deck_path(&r->sight, a->target_altitude_m[t->step], zenith);
+    if (t->gives == KIND_RANGE) deck = recipe_deck_range(&r->sight, a->range_m[t->step]);
+    if (t->gives == KIND_SOURCE) deck = recipe_deck_source(&r->sight);
     if (t->gives == KIND_SKY)
         deck = recipe_deck_sky(&r->sight, t->zenith * a->zenith_step_deg,
                                t->azimuth * a->azimuth_step_deg);
@@ -78,6 +85,12 @@ static void name_task(char *out, const recipe *r, const task *t, int piece)
 
     if (t->gives == KIND_SUN) length = snprintf(out, NAME_SIZE, "sun");
     if (t->gives == KIND_PATH) length = snprintf(out, NAME_SIZE, "path_%06.3f", path);
+    if (t->gives == KIND_TARGET)
+        length = snprintf(out, NAME_SIZE, "target_%06.0f_%06.3f",
+                          r->plan.target_altitude_m[t->step], path);
+    if (t->gives == KIND_RANGE)
+        length = snprintf(out, NAME_SIZE, "range_%06.0f", r->plan.range_m[t->step]);
+    if (t->gives == KIND_SOURCE) length = snprintf(out, NAME_SIZE, "level_source");
     if (t->gives == KIND_SKY)
         length =
             snprintf(out, NAME_SIZE, "sky_%06.3f_%07.3f", t->zenith * r->plan.sky_zenith_step_deg,
@@ -100,6 +113,24 @@ out:
     return rc;
 }
 
+static status add_steps(recipe *r, int first, int last, int piece)
+{
+    status rc = STATUS_OK;
+    const atmosphere *a = r->air;
+    task t = {.gives = KIND_TARGET, .first = first, .last = last};
+
+    for (t.step = 0; t.step < a->target_count; t.step++)
+        for (t.path = 0; t.path < a->path_count; t.path++) TRY(add_task(r, t, piece));
+    t.gives = KIND_RANGE;
+    t.path = 0;
+    for (t.step = 0; t.step < a->range_count; t.step++) TRY(add_task(r, t, piece));
+    t.gives = KIND_SOURCE;
+    t.step = 0;
+    if (a->range_count) TRY(add_task(r, t, piece));
+out:
+    return rc;
+}
+
 /* At the zenith all azimuths are one direction. */
 static status add_piece(recipe *r, int first, int last, int piece)
 {
@@ -112,7 +143,8 @@ static status add_piece(recipe *r, int first, int last, int piece)
                      piece));
     for (int zenith = 0; zenith < a->zenith_count; zenith++)
         for (int azimuth = 0; azimuth < (zenith ? a->azimuth_count : 1); azimuth++)
-            TRY(add_task(r, (task){KIND_SKY, 0, zenith, azimuth, first, last}, piece));
+            TRY(add_task(r, (task){KIND_SKY, 0, zenith, azimuth, first, last, 0}, piece));
+    TRY(add_steps(r, first, last, piece));
 out:
     return rc;
 }
@@ -122,8 +154,9 @@ static status add_pieces(recipe *r)
 {
     status rc = STATUS_OK;
     const atmosphere *a = r->air;
-    const size_t most = (size_t)r->plan.piece_count *
-                        (size_t)(1 + a->path_count + a->zenith_count * a->azimuth_count);
+    const size_t most =
+        (size_t)r->plan.piece_count * (size_t)(2 + (1 + a->target_count) * a->path_count +
+                                               a->zenith_count * a->azimuth_count + a->range_count);
     int first = 0, piece = 1;
 
     r->tasks = calloc(most, sizeof *r->tasks);
@@ -148,7 +181,9 @@ static status make_air(recipe *r)
                                 plan->wavenumber_max_cm1,    plan->wavenumber_step_cm1,
                                 plan->path_zenith_first_deg, plan->path_zenith_last_deg,
                                 plan->path_zenith_step_deg,  plan->sky_zenith_step_deg,
-                                plan->sky_azimuth_step_deg,  LOWTRAN_LEVELS};
+                                plan->sky_azimuth_step_deg,  LOWTRAN_LEVELS,
+                                plan->target_count,          plan->range_count,
+                                plan->target_altitude_m,     plan->range_m};
 
     return database_grid_make(&r->air, &grid);
 }
@@ -170,6 +205,8 @@ status recipe_open(recipe **out, const atmosphere_plan *plan, const site *place,
     r->profile_cards = profile_cards;
     r->phase_cards = phase_cards;
     TRY(make_air(r));
+    r->source = calloc((size_t)r->air->point_count, sizeof *r->source);
+    NEED(r->source, STATUS_MEMORY, "a radiance database");
     TRY(add_pieces(r));
     *out = r;
     r = NULL;
@@ -189,6 +226,7 @@ void recipe_free(recipe *r)
     if (r->decks) free(r->decks[r->count]);
     free(r->decks);
     free(r->names);
+    free(r->source);
     free(r->tasks);
     atmosphere_free(r->air);
     free(r);
@@ -275,6 +313,53 @@ static void take_sky(recipe *r, const task *t, const lowtran_run *run)
     }
 }
 
+static void take_target(recipe *r, const task *t, const lowtran_run *run)
+{
+    atmosphere *a = r->air;
+    const size_t place = (size_t)(t->step * a->path_count + t->path);
+    const size_t first = place * (size_t)a->point_count;
+
+    a->target_range_m[place] = run->range_km * KILOMETRE;
+    average(r, t, run->tau, 1.0, a->target_tau + first);
+    average(r, t, run->emitted, PER_CM2, a->target_emitted + first);
+    if (!recipe_is_night(r)) average(r, t, run->scattered, PER_CM2, a->target_scattered + first);
+}
+
+static void take_range(recipe *r, const task *t, const lowtran_run *run)
+{
+    const size_t first = (size_t)t->step * (size_t)r->air->point_count;
+
+    average(r, t, run->tau, 1.0, r->air->range_tau + first);
+    average(r, t, run->emitted, PER_CM2, r->air->range_emitted + first);
+}
+
+static status take_source(recipe *r, const task *t, const lowtran_run *run)
+{
+    status rc = STATUS_OK;
+    double *tau = calloc((size_t)r->air->point_count, sizeof *tau);
+
+    NEED(tau, STATUS_MEMORY, "a level path");
+    average(r, t, run->tau, 1.0, tau);
+    average(r, t, run->scattered, PER_CM2, r->source);
+    for (int i = t->first; i <= t->last; i++) r->source[i] /= fmax(1.0 - tau[i], CLEAR);
+out:
+    free(tau);
+    return rc;
+}
+
+/* assumed: along the ground air and sun are the same everywhere, so sunlight grows as 1 - tau. */
+static void scatter_ranges(recipe *r)
+{
+    atmosphere *a = r->air;
+
+    if (recipe_is_night(r)) return;
+    for (int step = 0; step < a->range_count; step++)
+        for (int i = 0; i < a->point_count; i++) {
+            const int at = step * a->point_count + i;
+            a->range_scattered[at] = r->source[i] * (1.0 - a->range_tau[at]);
+        }
+}
+
 status recipe_take(void *receiver, size_t index, const lowtran_run *run)
 {
     status rc = STATUS_OK;
@@ -291,6 +376,9 @@ status recipe_take(void *receiver, size_t index, const lowtran_run *run)
     if (t->gives == KIND_SUN) take_sun(r, t, run);
     if (t->gives == KIND_PATH) take_path(r, t, run);
     if (t->gives == KIND_SKY) take_sky(r, t, run);
+    if (t->gives == KIND_TARGET) take_target(r, t, run);
+    if (t->gives == KIND_RANGE) take_range(r, t, run);
+    if (t->gives == KIND_SOURCE) TRY(take_source(r, t, run));
 out:
     return rc;
 }
@@ -299,6 +387,7 @@ status recipe_finish(recipe *r, atmosphere **out)
 {
     status rc = STATUS_OK;
 
+    scatter_ranges(r);
     TRY(database_grid_integrate(r->air, r->plan.thesis));
     *out = r->air;
     r->air = NULL;

@@ -19,7 +19,7 @@ void recipe_free(recipe *r);
 
 size_t recipe_count(const recipe *r);
 const char *const *recipe_decks(const recipe *r); /* shape (recipe_count) */
-/* sun, path_46.000, sky_15.000_330.000; with a number of the spectrum's piece behind it where there
+/* sun, path_46.000, sky_15.000_330.000, target_002000_46.000, range_005000, level_source; with a number of the spectrum's piece behind it where there
  * are several */
 const char *const *recipe_names(const recipe *r);
 sun_position recipe_sun(const recipe *r);

@@ -3,11 +3,12 @@
 #include <math.h>
 #include <time.h>
 
-enum { OWN_PROFILE = 7, TRANSMITTED_SUN = 3, RADIANCE = 2, BETWEEN = 2, TO_SPACE = 3 };
+enum { OWN_PROFILE = 7, TRANSMITTED_SUN = 3, RADIANCE = 2, LEVEL = 1, BETWEEN = 2, TO_SPACE = 3 };
 
 #define EARTH_RADIUS_KM 6371.23 /* LOWTRAN's */
 #define DEGREE (M_PI / 180.0)
 #define KILOMETRE 1000.0
+#define SOURCE_KM 20.0
 
 /* Cards hold three decimals. */
 static double card_value(double value)
@@ -92,17 +93,17 @@ card_deck recipe_deck_sun(const recipe_sight *r)
     return deck;
 }
 
-card_deck recipe_deck_path(const recipe_sight *r, double zenith_deg)
+card_deck recipe_deck_path(const recipe_sight *r, double target_m, double zenith_deg)
 {
-    const double ground_km = r->plan->ground_altitude_m / KILOMETRE;
+    const double target_km = target_m / KILOMETRE;
     const double sensor_km = r->plan->sensor_altitude_m / KILOMETRE;
-    const double nadir = asin((EARTH_RADIUS_KM + ground_km) / (EARTH_RADIUS_KM + sensor_km) *
+    const double nadir = asin((EARTH_RADIUS_KM + target_km) / (EARTH_RADIUS_KM + sensor_km) *
                               sin(zenith_deg * DEGREE));
     card_deck deck = start(r, r->plan->sensor_azimuth_deg + 180.0);
 
     deck.itype = BETWEEN;
     deck.h1_km = card_value(sensor_km);
-    deck.h2_km = card_value(ground_km);
+    deck.h2_km = card_value(target_km);
     deck.angle_deg = card_value(180.0 - nadir / DEGREE);
     return deck;
 }
@@ -114,5 +115,27 @@ card_deck recipe_deck_sky(const recipe_sight *r, double zenith_deg, double azimu
     deck.itype = TO_SPACE;
     deck.h1_km = deck.gndalt_km;
     deck.angle_deg = card_value(zenith_deg);
+    return deck;
+}
+
+card_deck recipe_deck_range(const recipe_sight *r, double range_m)
+{
+    card_deck deck = start(r, r->plan->sensor_azimuth_deg + 180.0);
+
+    deck.itype = LEVEL;
+    deck.imult = 0;
+    deck.h1_km = deck.gndalt_km;
+    deck.range_km = card_value(range_m / KILOMETRE);
+    return deck;
+}
+
+card_deck recipe_deck_source(const recipe_sight *r)
+{
+    card_deck deck = start(r, r->plan->sensor_azimuth_deg + 180.0);
+
+    deck.itype = BETWEEN;
+    deck.h1_km = deck.gndalt_km;
+    deck.angle_deg = 90.0;
+    deck.range_km = SOURCE_KM;
     return deck;
 }

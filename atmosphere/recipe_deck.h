@@ -19,11 +19,15 @@ typedef struct recipe_sight {
 bool recipe_sight_is_night(const recipe_sight *r);
 
 /* Each returns a deck without albedo and wavenumbers. The first looks at the sun, by night at the
- * zenith, for its profile alone; the second from the sensor down to where its zenith angle is the
- * stated one; the third from the ground up. In mode thesis TBOUND and the sun are those of Appendix
+ * zenith, for its profile alone; the second from the sensor down to the altitude where its
+ * zenith angle is the stated one; the third from the ground up; the fourth along the ground, towards
+ * where the sensor looks, for transmission and emission alone: LOWTRAN's sunlight there is several
+ * times too bright; the fifth leaves the ground level and is 20 km long, for the sunlight. In mode thesis TBOUND and the sun are those of Appendix
  * A item 2. */
 card_deck recipe_deck_sun(const recipe_sight *r);
-card_deck recipe_deck_path(const recipe_sight *r, double zenith_deg);
+card_deck recipe_deck_path(const recipe_sight *r, double target_m, double zenith_deg);
 card_deck recipe_deck_sky(const recipe_sight *r, double zenith_deg, double azimuth_deg);
+card_deck recipe_deck_range(const recipe_sight *r, double range_m);
+card_deck recipe_deck_source(const recipe_sight *r);
 
 #endif

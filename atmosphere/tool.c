@@ -35,12 +35,17 @@ int tool_read(int argc, char **argv, int known, tool_options *out)
     return 0;
 }
 
-status tool_write_database(const atmosphere *air, const char *path)
+bool tool_is_container(const char *path)
 {
     const char *dot = strrchr(path, '.');
 
-    return dot && !strcmp(dot, ".radc") ? atmosphere_container_write(air, path)
-                                        : atmosphere_write(air, path);
+    return dot && !strcmp(dot, ".radc");
+}
+
+status tool_write_database(const atmosphere *air, const char *path)
+{
+    return tool_is_container(path) ? atmosphere_container_write(air, path)
+                                   : atmosphere_write(air, path);
 }
 
 static void print_lines(const char *command, const char *label, const char *text)

@@ -6,6 +6,7 @@
 #include "atmosphere.h"
 
 #include <getopt.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 int tool_make(int argc, char **argv);
@@ -32,7 +33,9 @@ enum { TOOL_TIME = 1, TOOL_KEEP_DECKS = 2, TOOL_PLOT = 4 };
  *   known   a sum of the above */
 int tool_read(int argc, char **argv, int known, tool_options *out);
 
-/* Writes a container where the name ends in .radc, else text. */
+bool tool_is_container(const char *path); /* its name ends in .radc */
+
+/* Writes a container or text, by the name. */
 status tool_write_database(const atmosphere *air, const char *path);
 
 /* Prints what was warned about and, unless rc is STATUS_OK, the failure; returns the exit code. */

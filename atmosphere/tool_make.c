@@ -108,6 +108,10 @@ static status run(const char *scene_path, const tool_options *options)
     TRY(generation_read(&g, scene_path));
     if (options->time)
         TRY(site_parse_time(options->time, &g->s->place.time_s, &g->s->place.utc_offset_min));
+    NEED(tool_is_container(options->output) || (!g->plan.target_count && !g->plan.range_count),
+         STATUS_ARGUMENT,
+         "%s: a text file has no place for target_altitude_m and range_m, expected -o FILE.radc",
+         options->output);
     TRY(sonde_profile_cards(&profile_cards, g));
     TRY(phase_table_cards(&phase_cards, g->plan.phase_table));
     TRY(recipe_open(&p.r, &g->plan, &g->s->place, profile_cards, phase_cards));

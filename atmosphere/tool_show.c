@@ -61,6 +61,22 @@ static void print_means(const atmosphere *a)
     }
 }
 
+static void print_steps(const atmosphere *a)
+{
+    const int n = a->point_count, m = a->path_count;
+
+    for (int i = 0; i < a->target_count; i++)
+        printf("  target at %g m, path at %g degrees, %.0f m: tau %.4f, emitted %.4g, scattered "
+               "%.4g\n",
+               a->target_altitude_m[i], a->path_zenith_first_deg, a->target_range_m[i * m],
+               mean(a, a->target_tau + i * m * n), mean(a, a->target_emitted + i * m * n),
+               mean(a, a->target_scattered + i * m * n));
+    for (int i = 0; i < a->range_count; i++)
+        printf("  level path of %g m: tau %.4f, emitted %.4g, scattered %.4g\n", a->range_m[i],
+               mean(a, a->range_tau + i * n), mean(a, a->range_emitted + i * n),
+               mean(a, a->range_scattered + i * n));
+}
+
 static status run(const char *path, const char *plot)
 {
     status rc = STATUS_OK;
@@ -70,6 +86,7 @@ static status run(const char *path, const char *plot)
     fputs(a->header, stdout);
     print_grids(a);
     print_means(a);
+    print_steps(a);
     if (plot) TRY(database_plot_write(a, plot));
 out:
     atmosphere_free(a);

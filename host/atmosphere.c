@@ -425,7 +425,12 @@ void atmosphere_free(atmosphere *a)
                               a->path_emitted,          a->path_scattered,
                               a->sky_emitted,           a->sky_scattered,
                               a->sky_emitted_direction, a->sky_scattered_direction,
-                              a->level_altitude_m,      a->level_temperature_k};
+                              a->level_altitude_m,      a->level_temperature_k,
+                              a->target_altitude_m,     a->target_range_m,
+                              a->target_tau,            a->target_emitted,
+                              a->target_scattered,      a->range_m,
+                              a->range_tau,             a->range_emitted,
+                              a->range_scattered};
     for (size_t i = 0; i < sizeof arrays / sizeof arrays[0]; i++) free(arrays[i]);
     free(a->header);
     free(a);

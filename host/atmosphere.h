@@ -31,6 +31,17 @@ typedef struct atmosphere {
     double zenith_step_deg, azimuth_step_deg; /* azimuth clockwise from north; 0 if there is one */
     double *sky_emitted_direction, *sky_scattered_direction; /* (zenith_count, azimuth_count, n) */
 
+    /* Of a container alone; counts are 0 where there are none. Targets between ground and sensor, on
+     * the paths' zenith angles, which are then those at the target: (target_count, path_count, n) */
+    int target_count;
+    double *target_altitude_m; /* (target_count), ascend */
+    double *target_range_m;    /* (target_count, path_count), to the sensor */
+    double *target_tau, *target_emitted, *target_scattered;
+
+    int range_count; /* level paths at the ground, as a camera there has: (range_count, n) */
+    double *range_m; /* (range_count), ascend */
+    double *range_tau, *range_emitted, *range_scattered;
+
     int level_count;
     double *level_altitude_m, *level_temperature_k; /* (level_count), altitudes ascend */
 } atmosphere;
@@ -40,7 +51,7 @@ typedef struct atmosphere {
  * negative or above 1 W cm-2 sr-1 um-1, or a grid is uneven or incomplete. */
 status atmosphere_read(atmosphere **out, const char *path);
 
-/* Writes a .rad file, seven digits a number; the old file stays if writing fails. */
+/* Writes a .rad file, seven digits a number, without what a container alone has; the old file stays if writing fails. */
 status atmosphere_write(const atmosphere *a, const char *path);
 
 void atmosphere_free(atmosphere *a);

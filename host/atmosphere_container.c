@@ -12,7 +12,7 @@ static const char magic[] = "RADSIG ATMOSPHERE 1\n";
 
 #define RADIANCE_LIMIT 1e4 /* W m-2 sr-1 um-1, as in the text file */
 
-enum { LINE_SIZE = 1024, COUNT_LIMIT = 1000000, NUMBER_KEYS = 14, ARRAYS = 12 };
+enum { LINE_SIZE = 1024, COUNT_LIMIT = 1000000, REQUIRED_KEYS = 14, NUMBER_KEYS = 16, ARRAYS = 21 };
 
 /* A key of the JSON object, a number: in the struct a double, or an int. */
 typedef struct number_key {
@@ -33,6 +33,10 @@ static const char arrays_text[] =
     "path_scattered (m, n), sky_emitted (n), sky_scattered (n), sky_emitted_direction (zenith, "
     "azimuth, n), sky_scattered_direction (zenith, azimuth, n), level_altitude_m (level), "
     "level_temperature_k (level); n = point_count, ascending wavelength, m = path_count";
+static const char target_text[] = "; then target_altitude_m (target), target_range_m (target, m), "
+                                  "target_tau (target, m, n), target_emitted, target_scattered";
+static const char range_text[] =
+    "; then range_m (range), range_tau (range, n), range_emitted, range_scattered";
 
 static void list_numbers(atmosphere *a, number_key out[NUMBER_KEYS])
 {
@@ -50,7 +54,9 @@ static void list_numbers(atmosphere *a, number_key out[NUMBER_KEYS])
         {"zenith_count", NULL, &a->zenith_count},
         {"azimuth_step_deg", &a->azimuth_step_deg, NULL},
         {"azimuth_count", NULL, &a->azimuth_count},
-        {"level_count", NULL, &a->level_count}};
+        {"level_count", NULL, &a->level_count},
+        {"target_count", NULL, &a->target_count},
+        {"range_count", NULL, &a->range_count}};
 
     memcpy(out, keys, sizeof keys);
 }
@@ -59,7 +65,8 @@ static void list_blocks(atmosphere *a, block out[ARRAYS])
 {
     const size_t n = (size_t)a->point_count, m = (size_t)a->path_count;
     const size_t sky = (size_t)a->zenith_count * (size_t)a->azimuth_count * n;
-    const size_t levels = (size_t)a->level_count;
+    const size_t levels = (size_t)a->level_count, targets = (size_t)a->target_count;
+    const size_t ranges = (size_t)a->range_count;
     const double most = RADIANCE_LIMIT;
     const block blocks[ARRAYS] = {{&a->solar_irradiance, n, 0.0, most},
                                   {&a->tau1, n, 0.0, 1.0},
@@ -72,7 +79,16 @@ static void list_blocks(atmosphere *a, block out[ARRAYS])
                                   {&a->sky_emitted_direction, sky, 0.0, most},
                                   {&a->sky_scattered_direction, sky, 0.0, most},
                                   {&a->level_altitude_m, levels, -1e3, 1e6},
-                                  {&a->level_temperature_k, levels, 100.0, 1000.0}};
+                                  {&a->level_temperature_k, levels, 100.0, 1000.0},
+                                  {&a->target_altitude_m, targets, -1e3, 1e6},
+                                  {&a->target_range_m, targets * m, 0.0, 1e8},
+                                  {&a->target_tau, targets * m * n, 0.0, 1.0},
+                                  {&a->target_emitted, targets * m * n, 0.0, most},
+                                  {&a->target_scattered, targets * m * n, 0.0, most},
+                                  {&a->range_m, ranges, 0.0, 1e8},
+                                  {&a->range_tau, ranges * n, 0.0, 1.0},
+                                  {&a->range_emitted, ranges * n, 0.0, most},
+                                  {&a->range_scattered, ranges * n, 0.0, most}};
 
     memcpy(out, blocks, sizeof blocks);
 }
@@ -121,7 +137,7 @@ static status read_object(atmosphere *a, FILE *file, const char *path)
             *keys[i].count = (int)value;
         }
     }
-    for (int i = 0; i < NUMBER_KEYS; i++)
+    for (int i = 0; i < REQUIRED_KEYS; i++)
         NEED(has[i], STATUS_FORMAT, "%s: the key %s is missing", path, keys[i].name);
 out:
     if (header) fclose(header);
@@ -149,8 +165,10 @@ out:
 static status read_block(const block *b, int number, FILE *file, const char *path)
 {
     status rc = STATUS_OK;
-    float *values = malloc(b->size * sizeof *values);
+    float *values = NULL;
 
+    if (!b->size) goto out;
+    values = malloc(b->size * sizeof *values);
     *b->at = malloc(b->size * sizeof **b->at);
     NEED(values && *b->at, STATUS_MEMORY, "%s: no memory to read it", path);
     NEED(fread(values, sizeof *values, b->size, file) == b->size, STATUS_FILE, "%s: ends early",
@@ -198,6 +216,14 @@ out:
     return rc;
 }
 
+static status check_rises(const double *values, int count, const char *name, const char *path)
+{
+    for (int i = 1; i < count; i++)
+        if (values[i] <= values[i - 1])
+            return status_set(STATUS_FORMAT, "%s: value %d of %s does not rise", path, i + 1, name);
+    return STATUS_OK;
+}
+
 status atmosphere_container_read(atmosphere **out, const char *path)
 {
     status rc = STATUS_OK;
@@ -213,9 +239,9 @@ status atmosphere_container_read(atmosphere **out, const char *path)
     TRY(check_size(blocks, file, path));
     TRY(set_grids(a, path));
     for (int i = 0; i < ARRAYS; i++) TRY(read_block(&blocks[i], i, file, path));
-    for (int i = 1; i < a->level_count; i++)
-        NEED(a->level_altitude_m[i] > a->level_altitude_m[i - 1], STATUS_FORMAT,
-             "%s: altitude %d does not rise", path, i + 1);
+    TRY(check_rises(a->level_altitude_m, a->level_count, "level_altitude_m", path));
+    TRY(check_rises(a->target_altitude_m, a->target_count, "target_altitude_m", path));
+    TRY(check_rises(a->range_m, a->range_count, "range_m", path));
     *out = a;
     a = NULL;
 out:
@@ -248,9 +274,11 @@ static void write_object(FILE *stream, atmosphere *a)
     fputs(magic, stream);
     fputs("{\n\"units\": \"W m-2 sr-1 um-1, W m-2 um-1\",\n", stream);
     for (int i = 0; i < NUMBER_KEYS; i++)
-        fprintf(stream, "\"%s\": %.10g,\n", keys[i].name,
-                keys[i].number ? *keys[i].number : (double)*keys[i].count);
-    fprintf(stream, "\"arrays\": \"float32, little-endian: %s\",\n", arrays_text);
+        if (i < REQUIRED_KEYS || *keys[i].count > 0)
+            fprintf(stream, "\"%s\": %.10g,\n", keys[i].name,
+                    keys[i].number ? *keys[i].number : (double)*keys[i].count);
+    fprintf(stream, "\"arrays\": \"float32, little-endian: %s%s%s\",\n", arrays_text,
+            a->target_count ? target_text : "", a->range_count ? range_text : "");
     write_header(stream, a->header);
 }
 

@@ -104,6 +104,35 @@ static void read_paths(atmosphere_plan *plan, scene_table *t)
                    toml_node_name(node), toml_node_text(node));
 }
 
+static int read_ascending(scene_table *t, const char *key, double low, double high, double *out)
+{
+    const toml_node *node = scene_table_node(t, key);
+    const size_t count = node && toml_node_kind(node) == TOML_ARRAY ? toml_node_count(node) : 0;
+    bool rises = true;
+
+    if (!node) return 0;
+    if (!count || count > ATMOSPHERE_PLAN_STEPS) {
+        scene_fail(t->reader, node, "%s: found %s, expected a list of up to %d numbers",
+                   toml_node_name(node), toml_node_text(node), ATMOSPHERE_PLAN_STEPS);
+        return 0;
+    }
+    if (!scene_table_numbers(t, key, count, low, high, out)) return 0;
+    for (size_t i = 1; i < count; i++) rises = rises && out[i] > out[i - 1];
+    if (!rises) scene_fail(t->reader, node, "%s: expected rising numbers", toml_node_name(node));
+    return (int)count;
+}
+
+static void read_grids(atmosphere_plan *plan, scene_table *t)
+{
+    plan->target_count = read_ascending(t, "target_altitude_m", plan->ground_altitude_m + 1.0,
+                                        plan->sensor_altitude_m - 1.0, plan->target_altitude_m);
+    plan->range_count = read_ascending(t, "range_m", 1.0, 1e5, plan->range_m);
+    if (plan->thesis && (plan->target_count || plan->range_count))
+        scene_fail(t->reader, t->node,
+                   "%s: mode \"thesis\" has neither target_altitude_m nor range_m",
+                   toml_node_name(t->node));
+}
+
 static void read_spectrum(atmosphere_plan *plan, scene_table *t)
 {
     double range[2];
@@ -196,6 +225,7 @@ void atmosphere_plan_read(atmosphere_plan *out, scene_reader *reader, const toml
     read_phase(out, &t);
     read_albedo(out, &t);
     read_paths(out, &t);
+    read_grids(out, &t);
     read_spectrum(out, &t);
     read_sky(out, &t);
     scene_table_close(&t);

@@ -5,7 +5,7 @@
 
 #include "scene_table.h"
 
-enum { ATMOSPHERE_PLAN_PIECES = 8 };
+enum { ATMOSPHERE_PLAN_PIECES = 8, ATMOSPHERE_PLAN_STEPS = 16 };
 
 /* LOWTRAN's own numbers. */
 typedef enum atmosphere_phase {
@@ -28,6 +28,9 @@ typedef struct atmosphere_plan {
     double ground_altitude_m, sensor_altitude_m;
     double sensor_azimuth_deg; /* seen from the target, clockwise from north */
     double path_zenith_first_deg, path_zenith_last_deg, path_zenith_step_deg;
+    int target_count, range_count;
+    double target_altitude_m[ATMOSPHERE_PLAN_STEPS]; /* (target_count), ground to sensor */
+    double range_m[ATMOSPHERE_PLAN_STEPS];           /* (range_count), of level paths */
     double wavenumber_min_cm1, wavenumber_max_cm1, wavenumber_step_cm1;
     double sample_step_cm1; /* at which LOWTRAN computes; averaged over the steps above */
     int piece_count;        /* of the spectrum, each with its albedo, by ascending wavelength */

@@ -57,5 +57,14 @@ def read_container(path):
     shape = (out["zenith_count"], out["azimuth_count"], n)
     directions = numbers[first + 2 * n : first + 2 * n + 2 * sky].reshape(2, *shape)
     out["sky"] = numpy.moveaxis(directions, 0, -1)
-    assert len(numbers) == first + 2 * n + 2 * sky + 2 * out["level_count"]
+    at = first + 2 * n + 2 * sky + 2 * out["level_count"]
+    targets, ranges = out.get("target_count", 0), out.get("range_count", 0)
+    for name, shape in [("target_altitude", (targets,)), ("target_range", (targets, m)), ("target_tau", (targets, m, n)),
+                        ("target_emitted", (targets, m, n)), ("target_scattered", (targets, m, n)), ("range", (ranges,)),
+                        ("range_tau", (ranges, n)), ("range_emitted", (ranges, n)), ("range_scattered", (ranges, n))]:
+        size = int(numpy.prod(shape))
+        out[name], at = numbers[at : at + size].reshape(shape), at + size
+    assert len(numbers) == at
+    out["sun"], out["tau1"] = numbers[:n], numbers[n : 2 * n]
+    out["path_tau"], out["path_emitted"], out["path_scattered"] = numbers[2 * n + m : first].reshape(3, m, n)
     return out
