@@ -279,11 +279,18 @@ const render_stage *render_stages(const render *r, size_t *out_count)
     return r->stages;
 }
 
+/* What bodies add to a pixel: its ways, and the shares of its history. */
+static uint32_t body_words(const render *r)
+{
+    return TRANSMISSION_PATHS * (uint32_t)(sizeof(transmission_path) / sizeof(float)) +
+           temperature_history_words(r->warmth);
+}
+
 uint32_t render_tile_limit(const render *r)
 {
-    const uint64_t words = shape_factor_cell_count(r->grid) + 64u +
-                           (r->around ? 2u * r->frame.sample_count : 0u) +
-                           (uint64_t)r->s->band_count * BAND_PLANES;
+    const uint64_t words =
+        shape_factor_cell_count(r->grid) + 64u + (r->around ? 2u * r->frame.sample_count : 0u) +
+        (r->bodies ? body_words(r) : 0u) + (uint64_t)r->s->band_count * BAND_PLANES;
     const uint64_t limit = ((uint64_t)TILE_BYTES / (words * sizeof(float))) & ~(uint64_t)63;
 
     return limit < TILE_LEAST ? TILE_LEAST : limit > TILE_MOST ? TILE_MOST : (uint32_t)limit;
