@@ -78,10 +78,10 @@ all: $(PROGRAM) $(PREVIEW) scenes
 build/radsig build/radsig-view: build/%: build/release/%
 	ln -f $< $@
 
-$(BUILD)/radsig: $(COMMANDS:%.c=$(BUILD)/%.o) $(LIBRARY)
+$(BUILD)/radsig: $(COMMANDS:%.c=$(BUILD)/%.o) $(BUILD)/library.a
 	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS)
 
-$(BUILD)/radsig-view: $(VIEWER:%.c=$(BUILD)/%.o) $(LIBRARY)
+$(BUILD)/radsig-view: $(VIEWER:%.c=$(BUILD)/%.o) $(BUILD)/library.a
 	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lOSMesa -lglfw -lpthread
 
 $(BUILD)/%.o: %.c | build/deps
@@ -187,7 +187,7 @@ test: deps all $(HOST_TESTS) $(ATMOSPHERE_AT_HAND)
 RUN_SANITIZED = $(if $(SAN),LSAN_OPTIONS=print_suppressions=0:suppressions=$(CURDIR)/tests/sanitizer.supp,) \
 	RADSIG_SHARED=$${RADSIG_SHARED:-../shared}
 
-$(BUILD)/tests/%: $(BUILD)/tests/host/%_test.o $(LIBRARY)
+$(BUILD)/tests/%: $(BUILD)/tests/host/%_test.o $(BUILD)/library.a
 	@mkdir -p $(@D)
 	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lcmocka
 
