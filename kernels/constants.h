@@ -7,7 +7,7 @@
 #define ZERO_CELSIUS_K 273.15f           /* K */
 
 /* Planck's law per micrometre: B = FIRST / (l^5 (exp(SECOND / (l T)) - 1)), l in um, T in K. */
-#define PLANCK_FIRST 1.191042972397188e8 /* 2 h c^2, W um4 m-2 sr-1 */
+#define PLANCK_FIRST 1.191042972397188e8  /* 2 h c^2, W um4 m-2 sr-1 */
 #define PLANCK_SECOND 1.438776877503933e4 /* h c / k, um K */
 
 /* The same with the constants that the thesis prints below eq. 2.4-5: c 2.99792458e10 cm/s,

@@ -1,7 +1,6 @@
 import numpy as np
 import probe
 import pytest
-import records
 from radiometry_reference import unit
 
 ZENITHS, AZIMUTHS, SAMPLES = 7, 13, 3
