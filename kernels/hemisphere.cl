@@ -12,7 +12,7 @@ kernel void hemisphere(const uint count, const uint cell_count, const float sun_
                        global const float *cell, global const hit_record *hit, global uint *out_met)
 {
     const uint first = get_global_id(0) * RAY_LANES, c = get_global_id(1);
-    if (first >= count) return;
+    if (first >= count || c >= cell_count) return;
     const float sun[3] = {sun_x, sun_y, sun_z};
     ray_packet packet, shadow;
     ray_packet_hit met;

@@ -64,7 +64,9 @@ static inline uint ray_order_of(global const float *direction, const uint stride
 static inline uint ray_order_of(global const float *direction, const uint stride, const uint count,
                                 ushort order[RAY_BATCH])
 {
-    order[0] = 0;
+    (void)direction;
+    (void)stride;
+    for (uint i = 0; i < count; i++) order[i] = 0;
     return 0;
 }
 
