@@ -58,7 +58,8 @@ static void write_plan(FILE *stream, const atmosphere_plan *plan)
                 plan->model);
     if (plan->inversion_altitude_m > 0.0)
         fprintf(stream,
-                "# Below %g m the profile goes linearly to the hour's surface weather (thesis 2.4.4).\n",
+                "# Below %g m the profile goes linearly to the hour's surface weather (thesis "
+                "2.4.4).\n",
                 plan->inversion_altitude_m);
 }
 

@@ -70,9 +70,10 @@ static size_t choose_paths(const atmosphere *a, int out[SHOWN])
 {
     const int chosen[SHOWN] = {0, a->path_count / 2, a->path_count - 1};
     size_t count = 0;
+    int last = -1;
 
     for (int i = 0; i < SHOWN; i++)
-        if (!count || chosen[i] > out[count - 1]) out[count++] = chosen[i];
+        if (chosen[i] > last) last = out[count++] = chosen[i];
     return count;
 }
 
