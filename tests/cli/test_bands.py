@@ -1,8 +1,7 @@
 """Responses of bands, and series of them, against quadrature in double."""
 import os
-import re
-import subprocess
 
+import exr
 import numpy as np
 import pytest
 
@@ -98,13 +97,11 @@ def test_a_hyperspectral_cube_has_spectral_channels(program, tmp_path):
     got = program.render(tmp_path, "--exr", band=[
         {"name": "b", "wavelength_um": [8.0, 14.0], "count": 24}])
 
-    said = subprocess.run(["oiiotool", "--info", "-v", got.folder / "plane.exr"],
-                          capture_output=True, text=True, check=True).stdout
-    names = re.search("channel list: (.*)", said)[1].split(", ")
-    spectral = [name.split()[0] for name in names if name.startswith("S0.")]
+    header = exr.read_header(got.folder / "plane.exr")
+    spectral = [name for name in exr.channels(header) if name.startswith("S0.")]
     # the centre of a flat band is its middle; names sort by wavelength
     assert spectral == [f"S0.{8125 + 250 * i:05},0000nm" for i in range(24)]
-    assert 'spectralLayoutVersion: "1.0"' in said
+    assert header["spectralLayoutVersion"] == b"1.0"
 
 
 def peak_mib(program, folder, pixels):
