@@ -44,7 +44,7 @@ SCENES := $(patsubst scenes/%/make_geometry.py,scenes/%/.geometry,$(wildcard sce
 .DELETE_ON_ERROR:
 .SECONDARY:
 .SECONDEXPANSION:
-.PHONY: help deps all atmosphere atmosphere-data scenes demo test lint bench bench-rays renders clean
+.PHONY: help deps all atmosphere atmosphere-data scenes demo test lint bench bench-rays renders clean bench-view screenshots
 
 ## help: list the targets
 help:
