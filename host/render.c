@@ -150,8 +150,7 @@ static status open_spectra(render *r)
     status rc = STATUS_OK;
     const scene *s = r->s;
 
-    TRY(spectra_build(&r->bands, s->bands, s->band_count, s->air, s->thesis && !s->is_uniform,
-                      s->thesis));
+    TRY(spectra_build(&r->bands, s->bands, s->band_count, s->air, scene_sums_points(s), s->thesis));
     TRY(device_allocate(r->dev, &r->spectrum_rows,
                         (size_t)r->bands->row_count * r->bands->sample_count * sizeof(float),
                         r->bands->rows));

@@ -149,7 +149,7 @@ static void check_bands(scene_reader *reader)
         const size_t kept = strlen(status_message());
         band_samples samples = {0};
         if (!b->response && !(b->low_um > 0.0 && b->low_um < b->high_um)) continue;
-        if (band_sample(&samples, b, s->air, s->thesis) != STATUS_OK) {
+        if (band_sample(&samples, b, s->air, scene_sums_points(s)) != STATUS_OK) {
             scene_fail(reader, toml_node_at(list, b->table), "%s", status_message() + kept);
             refused = b->table;
         }
@@ -296,6 +296,11 @@ const char *scene_thermal_name(scene_thermal thermal)
     static const char *const names[] = {"fixed", "therm", "layered"};
 
     return names[thermal];
+}
+
+bool scene_sums_points(const scene *s)
+{
+    return s->thesis && !s->is_uniform;
 }
 
 uint32_t scene_emissivity_rows(const scene *s)

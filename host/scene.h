@@ -86,6 +86,9 @@ void scene_free(scene *s);
  * is no band of a name. */
 status scene_keep_bands(scene *s, const char *names);
 
+/* True where bands are summed over the database's points: thesis mode, and there is a database. */
+bool scene_sums_points(const scene *s);
+
 /* Number of rows in the emissivity table of all materials: 91 or 1 each. */
 uint32_t scene_emissivity_rows(const scene *s);
 

@@ -121,3 +121,13 @@ def test_memory_does_not_grow_with_the_cube(program, tmp_path):
     large = peak_mib(program, tmp_path / "large", 448)  # 77 MiB
 
     assert large < small + 40  # 63 more in the file; the device takes some 20 more or less
+
+
+def test_a_band_narrower_than_the_grid_of_a_uniform_sky_is_rendered_in_thesis_mode(
+        program, radiance, tmp_path):
+    got = program.render(tmp_path, "--mode", "thesis", material=BLACK, band=[
+        {"name": "wide", "wavelength_um": [8.0, 14.0]},
+        {"name": "narrow", "wavelength_um": [10.0011, 10.0021]}])  # .1 cm-1; the grid has 2
+
+    expected = radiance.band_planck(10.0011, 10.0021, 300.0)
+    assert got.planes["radiance_narrow"] == pytest.approx(expected, rel=BAND)
