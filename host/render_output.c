@@ -1,5 +1,6 @@
 #include "render_output.h"
 
+#include "clock.h"
 #include "quick_look.h"
 #include "render_sensor.h"
 #include "render_summary.h"
@@ -8,7 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* A device without room for a tile gets smaller ones, down to this many pixels. */
 enum { TILE_LEAST = 1 << 8 };
@@ -270,13 +270,12 @@ out:
 status render_output(const scene *s, device *dev, const render_output_options *options)
 {
     status rc = STATUS_OK;
-    struct timespec start;
+    const double start_s = clock_now_s();
     writing w = {0};
 
-    clock_gettime(CLOCK_MONOTONIC, &start);
     TRY(open_writing(&w, s, dev, options));
     TRY(render_pixels(&w));
-    TRY(write_files(&w, dev, (double)start.tv_sec + 1e-9 * (double)start.tv_nsec));
+    TRY(write_files(&w, dev, start_s));
 out:
     free_writing(&w);
     return rc;

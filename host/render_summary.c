@@ -1,10 +1,10 @@
 #include "render_summary.h"
 
+#include "clock.h"
 #include "render_report.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 enum { STAGE_LIMIT = 64, SETTING_COUNT = 5 };
 
@@ -57,15 +57,12 @@ static status list_stages(lists *l, const render_summary *summary)
     status rc = STATUS_OK;
     const device_time *times;
     size_t count;
-    struct timespec now;
     const render_stage *stages = render_stages(summary->r, &count);
 
     for (size_t i = 0; i < count; i++) add_stage(l, "host ", stages[i].name, stages[i].seconds);
     TRY(device_times(summary->dev, &times, &count));
     for (size_t i = 0; i < count; i++) add_stage(l, "kernel ", times[i].kernel, times[i].seconds);
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    add_stage(l, "", "all but reading",
-              (double)now.tv_sec + 1e-9 * (double)now.tv_nsec - summary->start_s);
+    add_stage(l, "", "all but reading", clock_now_s() - summary->start_s);
 out:
     return rc;
 }

@@ -1,18 +1,9 @@
 #include "bench.h"
 
+#include "clock.h"
 #include "motion.h"
 
-#include <time.h>
-
 static const double orbit_s = 5.0, orbit_deg = 0.5;
-
-static double now_s(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* Steps until a frame of the last wish is drawn. */
 static status draw_next(preview *p, bool is_exact)
@@ -36,22 +27,22 @@ status bench_run(preview *p, double start_s, FILE *to)
     int frames = 0;
 
     TRY(draw_next(p, false));
-    fprintf(to, "first picture after %.2f s\n", now_s() - start_s);
+    fprintf(to, "first picture after %.2f s\n", clock_now_s() - start_s);
     TRY(draw_next(p, true));
-    fprintf(to, "first exact picture after %.2f s, %d x %d\n", now_s() - start_s,
+    fprintf(to, "first exact picture after %.2f s, %d x %d\n", clock_now_s() - start_s,
             p->live->camera.columns, p->live->camera.rows);
-    const double begin_s = now_s();
+    const double begin_s = clock_now_s();
     p->wish.has_camera = true;
-    for (; now_s() < begin_s + orbit_s; frames++) {
+    for (; clock_now_s() < begin_s + orbit_s; frames++) {
         motion_orbit(&p->camera, orbit_deg, 0.0);
         preview_ask(p);
         TRY(draw_next(p, false));
     }
-    fprintf(to, "moving: %.1f pictures a second, %d x %d\n", frames / (now_s() - begin_s),
+    fprintf(to, "moving: %.1f pictures a second, %d x %d\n", frames / (clock_now_s() - begin_s),
             p->live->camera.columns, p->live->camera.rows);
-    const double rest_s = now_s();
+    const double rest_s = clock_now_s();
     TRY(draw_next(p, true));
-    fprintf(to, "exact %.2f s after rest\n", now_s() - rest_s);
+    fprintf(to, "exact %.2f s after rest\n", clock_now_s() - rest_s);
 out:
     return rc;
 }

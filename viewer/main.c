@@ -1,5 +1,6 @@
 /* radsig-view: the preview, as a program of its own; `radsig view` starts it. */
 #include "bench.h"
+#include "clock.h"
 #include "control.h"
 #include "offscreen.h"
 #include "saving.h"
@@ -8,7 +9,6 @@
 
 #include <getopt.h>
 #include <string.h>
-#include <time.h>
 
 enum { EXIT_USAGE = 2 };
 
@@ -176,13 +176,12 @@ out:
 int main(int argc, char **argv)
 {
     arguments a = {0};
-    struct timespec start;
+    const double start_s = clock_now_s();
     int code;
 
-    clock_gettime(CLOCK_MONOTONIC, &start);
     code = take_arguments(&a, argc, argv);
     if (code >= 0) return code;
-    if (run(&a, (double)start.tv_sec + 1e-9 * (double)start.tv_nsec) == STATUS_OK) return 0;
+    if (run(&a, start_s) == STATUS_OK) return 0;
     print_lines("warning: ", status_warnings());
     print_lines("", status_message());
     return 1;

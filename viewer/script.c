@@ -1,12 +1,12 @@
 #include "script.h"
 
+#include "clock.h"
 #include "control.h"
 #include "page.h"
 #include "saving.h"
 
 #include <errno.h>
 #include <string.h>
-#include <time.h>
 
 enum { LINE_SIZE = 1024, DRAG_STEPS = 10 };
 
@@ -17,21 +17,13 @@ static status draw(preview *p)
     return preview_step(p, &drew);
 }
 
-static double now_s(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static status pause_for(preview *p, double wait_s)
 {
     status rc = STATUS_OK;
-    const double end_s = now_s() + wait_s;
+    const double end_s = clock_now_s() + wait_s;
     event e;
 
-    while (now_s() < end_s) {
+    while (clock_now_s() < end_s) {
         TRY(draw(p));
         if (p->s->take(p->s, &e, 0.02)) control_take(p, &e);
     }

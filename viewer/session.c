@@ -1,5 +1,6 @@
 #include "session.h"
 
+#include "clock.h"
 #include "file_stamp.h"
 
 #include <errno.h>
@@ -40,14 +41,6 @@ struct session {
     double stated_time_s; /* by the scene's files */
     bool stated_thesis, is_broken;
 };
-
-static double now_s(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void tell(session *s, const char *task, double progress)
 {
@@ -135,7 +128,7 @@ static void publish(session *s, frame *f)
 static status render_frame(session *s, const render_look *look, unsigned number)
 {
     status rc = STATUS_OK;
-    const double start_s = now_s();
+    const double start_s = clock_now_s();
     uint32_t most = TILE_MOST;
     frame *f = NULL;
     size_t plane_count = 0;
@@ -158,7 +151,7 @@ static status render_frame(session *s, const render_look *look, unsigned number)
     f->time_s = look->time_s;
     f->is_exact = !look->is_coarse;
     f->wish = number;
-    f->seconds = now_s() - start_s;
+    f->seconds = clock_now_s() - start_s;
     publish(s, f);
     f = NULL;
 out:

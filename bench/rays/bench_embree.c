@@ -1,5 +1,7 @@
 #include "bench_embree.h"
 
+#include "clock.h"
+
 #include <embree3/rtcore.h>
 #include <math.h>
 #include <pthread.h>
@@ -29,14 +31,6 @@ typedef struct job {
     int mode;
     atomic_uint next;
 } job;
-
-double bench_wall_s(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 double bench_cpu_s(void)
 {
@@ -68,9 +62,9 @@ status bench_embree_open(bench_embree **out, double *out_build_s, const bench_me
     rtcCommitGeometry(shape);
     rtcAttachGeometry(e->scene, shape);
     rtcReleaseGeometry(shape);
-    *out_build_s = bench_wall_s();
+    *out_build_s = clock_now_s();
     rtcCommitScene(e->scene);
-    *out_build_s = bench_wall_s() - *out_build_s;
+    *out_build_s = clock_now_s() - *out_build_s;
     NEED(rtcGetDeviceError(e->device) == RTC_ERROR_NONE, STATUS_DEVICE,
          "Embree: no scene of %u triangles", mesh->triangle_count);
     *out = e;
@@ -253,11 +247,11 @@ status bench_embree_trace(bench_embree *e, const bench_rays *rays, int mode, int
 
     if (mode == EMBREE_PREFILLED) TRY(fill(e, rays));
     *out_cpu_s = bench_cpu_s();
-    *out_wall_s = bench_wall_s();
+    *out_wall_s = clock_now_s();
     for (int i = 1; i < threads; i++) pthread_create(&thread[i], NULL, work, &j);
     work(&j);
     for (int i = 1; i < threads; i++) pthread_join(thread[i], NULL);
-    *out_wall_s = bench_wall_s() - *out_wall_s;
+    *out_wall_s = clock_now_s() - *out_wall_s;
     *out_cpu_s = bench_cpu_s() - *out_cpu_s;
     for (uint32_t i = 0; mode == EMBREE_PREFILLED && i < rays->count; i++) {
         if (rays->any_hit)

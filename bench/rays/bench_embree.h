@@ -19,8 +19,7 @@ void bench_embree_free(bench_embree *e);
 status bench_embree_trace(bench_embree *e, const bench_rays *rays, int mode, int threads,
                           const bench_met *out, double *out_wall_s, double *out_cpu_s);
 
-/* Wall time and the CPU time of this process, s. */
-double bench_wall_s(void);
+/* CPU time of this process, s. */
 double bench_cpu_s(void);
 
 #endif

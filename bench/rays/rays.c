@@ -1,6 +1,7 @@
 /* The ray bench: radsig against Embree, the same rays in one process. See bench/README.md. */
 #include "bench_embree.h"
 #include "bench_opencl.h"
+#include "clock.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -70,11 +71,11 @@ static status prepare(bench *b, const char *name)
     const uint32_t most = 1 << 20;
 
     TRY(bench_mesh_make(&b->mesh, name));
-    wall_s = bench_wall_s();
+    wall_s = clock_now_s();
     cpu_s = bench_cpu_s();
     TRY(bvh_build(&b->tree, b->mesh->facet_count, (const uint32_t(*)[4])b->mesh->corner,
                   (const float(*)[3])b->mesh->position));
-    wall_s = bench_wall_s() - wall_s;
+    wall_s = clock_now_s() - wall_s;
     cpu_s = bench_cpu_s() - cpu_s;
     TRY(bench_embree_open(&b->embree[0], &robust_s, b->mesh, true));
     TRY(bench_embree_open(&b->embree[1], &plain_s, b->mesh, false));

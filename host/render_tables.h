@@ -1,0 +1,30 @@
+/* Render tables: what the pixels of a scene read on the device: facets, materials, spectra. */
+#ifndef RENDER_TABLES_H
+#define RENDER_TABLES_H
+
+#include "bodies.h"
+#include "device.h"
+#include "scene.h"
+#include "spectra.h"
+
+/* Starts zeroed; render_tables_free is then safe at any time. */
+typedef struct render_tables {
+    size_t facet_count;  /* with the ground's */
+    facet_record *facet; /* shape (facet_count) */
+    device_memory facets, facet_ids, materials;
+    spectra *bands;
+    device_memory spectrum_rows, emissivity_rows, extinction_rows, band_records, ln_radiance;
+} render_tables;
+
+/* Takes the facets, the ground's last, and the materials to the device. */
+status render_tables_take_facets(render_tables *t, device *dev, const scene *s);
+
+/* Samples all that depends on wavelength over the bands and takes it to the device.
+ *   through   transmissive bodies; NULL: none */
+status render_tables_take_spectra(render_tables *t, device *dev, const scene *s,
+                                  const bodies *through);
+
+/* Releases what the tables hold, not the record. */
+void render_tables_free(render_tables *t);
+
+#endif

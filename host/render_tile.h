@@ -1,0 +1,49 @@
+/* Render tile: the stages that run for every tile of pixels, and what it holds on the device. */
+#ifndef RENDER_TILE_H
+#define RENDER_TILE_H
+
+#include "incident.h"
+#include "ray_scene.h"
+#include "render_tables.h"
+#include "shape_factor.h"
+#include "temperature.h"
+
+/* What all tiles of a render share. */
+typedef struct render_shared {
+    const scene *s;
+    device *dev;
+    ray_scene *rays;
+    bodies *bodies; /* NULL: none */
+    shape_factor_grid *grid, *coarse_grid;
+    bool is_coarse;
+    temperature *warmth;
+    render_tables tables;
+    incident *around; /* NULL: thesis mode */
+    radiometry_record frame;
+    camera_record camera;
+} render_shared;
+
+/* What one tile holds on the device. */
+typedef struct render_tile_memory {
+    uint32_t first, count;
+    shape_factor_points points;
+    device_memory lit, history, temperature_k, background, background_hit, background_lit;
+    device_memory incident; /* exact mode: spectra, shape (count, 2, samples) */
+    device_memory body_paths, direct, background_direct; /* with bodies: see crossing.cl */
+    device_memory truth_planes, band_planes;
+} render_tile_memory;
+
+/* The most pixels that a tile should hold: see render_tile_limit. */
+uint32_t render_tile_most(const render_shared *r);
+
+/* Takes memory for pixels first .. first + count - 1. After a failure too, render_tile_free is due. */
+status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t first,
+                        uint32_t count);
+void render_tile_free(render_tile_memory *t);
+
+/* Computes the planes of the tile: truth_planes, shape (TRUTH_PLANES + SUN_PLANES, count), and
+ * band_planes, shape (band_count, BAND_PLANES, count).
+ *   wants_parts   the parts of the radiance too */
+status render_tile_compute(const render_tile_memory *t, const render_shared *r, bool wants_parts);
+
+#endif
