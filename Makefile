@@ -202,8 +202,8 @@ bench: deps all
 
 # Embree is for this bench alone.
 BENCH_RAYS := $(patsubst %.c,$(BUILD)/%.o,$(wildcard bench/rays/*.c))
-BENCH_MESHES := airport hall terrain-54450 terrain-1280000 terrain-10000000
-BENCH_ROUNDS := 5
+BENCH_MESHES ?= airport hall terrain-54450 terrain-1280000 terrain-10000000
+BENCH_ROUNDS ?= 5
 
 ## bench-rays: time rays against Embree (needs libembree-dev); BENCH_MESHES, BENCH_ROUNDS
 bench-rays: deps scenes

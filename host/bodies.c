@@ -43,8 +43,11 @@ static status upload_tree(bodies *b)
 
     NEED(corner, STATUS_MEMORY, "no memory for %u facets", g->facet_count);
     keep(b->s, true, corner);
-    TRY(bvh_build(&tree, g->facet_count, (const uint32_t(*)[4])corner,
-                  (const float(*)[3])g->position));
+    const bvh_source source = {.facet_count = g->facet_count,
+                               .vertex_count = g->vertex_count,
+                               .corner = (const uint32_t(*)[4])corner,
+                               .position = (const float(*)[3])g->position};
+    TRY(bvh_build(&tree, &source));
     const bvh_tables *tables = bvh_look(tree);
     TRY(device_allocate(b->dev, &b->node, tables->node_count * sizeof *tables->node, tables->node));
     TRY(device_allocate(b->dev, &b->block, tables->block_count * sizeof *tables->block,

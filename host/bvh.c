@@ -185,6 +185,18 @@ static uint32_t add_node(builder *b, uint32_t top)
     return deepest + count;
 }
 
+static status reserve(bvh *tree, size_t nodes, size_t blocks)
+{
+    status rc = STATUS_OK;
+
+    tree->node = aligned_alloc(ALIGNMENT, nodes * sizeof *tree->node);
+    tree->block = aligned_alloc(ALIGNMENT, blocks * sizeof *tree->block);
+    NEED(tree->node && tree->block, STATUS_MEMORY, "no memory for a tree over %u triangles",
+         tree->tables.triangle_count);
+out:
+    return rc;
+}
+
 /* Makes the flat tree; fails where it has more blocks than a child word can name. */
 static status flatten(builder *b, bool even, uint32_t *out_stack)
 {
@@ -198,9 +210,7 @@ static status flatten(builder *b, bool even, uint32_t *out_stack)
     NEED(leaf_count <= BLOCK_LIMIT, STATUS_ARGUMENT,
          "a tree over %u triangles would have %zu blocks, at most %d are possible", count,
          leaf_count, BLOCK_LIMIT);
-    tree->node = aligned_alloc(ALIGNMENT, leaf_count * sizeof *tree->node);
-    tree->block = aligned_alloc(ALIGNMENT, leaf_count * sizeof *tree->block);
-    NEED(tree->node && tree->block, STATUS_MEMORY, "no memory for a tree over %u triangles", count);
+    TRY(reserve(tree, leaf_count, leaf_count));
     *out_stack = add_node(b, 0);
     if (count == 0) add_leaf(b, &(bvh_fork){.count = 0});
 out:
@@ -218,11 +228,11 @@ static void drop_flat(builder *b)
     b->tree->tables.node_count = b->tree->tables.block_count = 0;
 }
 
-status bvh_build(bvh **out, uint32_t facet_count, const uint32_t (*corner)[4],
-                 const float (*position)[3])
+status bvh_build(bvh **out, const bvh_source *source)
 {
     status rc = STATUS_OK;
-    builder b = {.position = position};
+    builder b = {.position = source->position};
+    const uint32_t facet_count = source->facet_count;
     const size_t most = 2 * (size_t)facet_count + 1;
     uint32_t stack = 0;
 
@@ -232,7 +242,7 @@ status bvh_build(bvh **out, uint32_t facet_count, const uint32_t (*corner)[4],
     NEED(b.tree && b.triangle && b.item, STATUS_MEMORY, "no memory for a tree over %u facets",
          facet_count);
     NEED(most < UINT32_MAX / 2, STATUS_ARGUMENT, "a tree over %u facets is too large", facet_count);
-    add_facets(&b, facet_count, corner);
+    add_facets(&b, facet_count, source->corner);
     TRY(flatten(&b, false, &stack));
     if (stack > RAY_STACK_SIZE) {
         drop_flat(&b);
@@ -248,6 +258,23 @@ out:
     free(b.item);
     free(b.triangle);
     bvh_free(b.tree);
+    return rc;
+}
+
+status bvh_restore(bvh **out, const bvh_tables *tables, bvh_node **out_node, bvh_block **out_block)
+{
+    status rc = STATUS_OK;
+    bvh *tree = calloc(1, sizeof *tree);
+
+    NEED(tree, STATUS_MEMORY, "no memory for a tree");
+    tree->tables = *tables;
+    TRY(reserve(tree, tables->node_count, tables->block_count));
+    tree->tables.node = *out_node = tree->node;
+    tree->tables.block = *out_block = tree->block;
+    *out = tree;
+    tree = NULL;
+out:
+    bvh_free(tree);
     return rc;
 }
 

@@ -18,15 +18,26 @@ typedef struct bvh_tables {
     float low[3], high[3];   /* box of what was kept; all 0 where that is nothing */
 } bvh_tables;
 
-/* Builds the tree; the same input gives the same bytes.
- *   corner     shape (facet_count), indices into position, front counter-clockwise; the fourth is
- *              UINT32_MAX for a triangle. A quad becomes two triangles of one facet
- * (polygon_diagonal) position   m, from an origin near the geometry No facets make a tree that
- * every ray misses. Boxes are wider than the triangles by 2^-21 of the largest coordinate: what the
- * rounding of an edge test can be off by. Fails with STATUS_ARGUMENT beyond 2^27 blocks and with
- * STATUS_MEMORY. */
-status bvh_build(bvh **out, uint32_t facet_count, const uint32_t (*corner)[4],
-                 const float (*position)[3]);
+/* What a tree is built over. */
+typedef struct bvh_source {
+    uint32_t facet_count, vertex_count;
+    const uint32_t (*corner)[4]; /* shape (facet_count), indices into position, front
+                                    counter-clockwise; the fourth is UINT32_MAX for a triangle. A
+                                    quad becomes two triangles of one facet (polygon_diagonal) */
+    const float (*position)[3];  /* shape (vertex_count), m, from an origin near the geometry */
+} bvh_source;
+
+/* Goes up with every change of what bvh_build makes of a source: trees are kept on disk. */
+enum { BVH_LAYOUT = 1 };
+
+/* Builds the tree; the same input gives the same bytes. No facets make a tree that every ray misses.
+ * Boxes are wider than the triangles by 2^-21 of the largest coordinate: what the rounding of an
+ * edge test can be off by. Fails with STATUS_ARGUMENT beyond 2^27 blocks and with STATUS_MEMORY. */
+status bvh_build(bvh **out, const bvh_source *source);
+
+/* Makes a tree again of what bvh_look told of it; room for the arrays is left to the caller, who
+ * fills them. */
+status bvh_restore(bvh **out, const bvh_tables *tables, bvh_node **out_node, bvh_block **out_block);
 void bvh_free(bvh *tree);
 
 const bvh_tables *bvh_look(const bvh *tree);

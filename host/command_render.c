@@ -165,7 +165,6 @@ int command_render(int argc, char **argv)
         const struct sigaction action = {.sa_handler = on_signal};
         sigaction(SIGINT, &action, NULL);
         sigaction(SIGTERM, &action, NULL);
-        signal(SIGXFSZ, SIG_IGN); /* a limit on files is then an error of writing */
         code = command_end("render", run(a));
     }
     free(a);

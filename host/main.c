@@ -1,6 +1,7 @@
 /* radsig: the command line. */
 #include "command.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -51,6 +52,7 @@ int main(int argc, char **argv)
         puts("radsig " RADSIG_VERSION);
         return 0;
     }
+    signal(SIGXFSZ, SIG_IGN); /* a limit on files is then an error of writing */
     for (int i = 0; i < COMMAND_COUNT; i++)
         if (!strcmp(argv[1], commands[i].name)) return commands[i].run(argc - 1, argv + 1);
     fprintf(stderr, "radsig: there is no command '%s' (radsig --help)\n", argv[1]);

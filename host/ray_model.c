@@ -1,5 +1,7 @@
 #include "ray_model.h"
 
+#include "bvh_cache.h"
+
 #include <stdlib.h>
 
 struct ray_model {
@@ -30,7 +32,11 @@ status ray_model_open(ray_model **out, int device_index, char *const *path, size
 
     NEED(model, STATUS_MEMORY, "no memory for a model");
     TRY(read_meshes(model, path, path_count));
-    TRY(bvh_build(&tree, model->shape->facet_count, model->shape->corner, model->shape->position));
+    const bvh_source source = {.facet_count = model->shape->facet_count,
+                               .vertex_count = model->shape->vertex_count,
+                               .corner = (const uint32_t(*)[4])model->shape->corner,
+                               .position = (const float(*)[3])model->shape->position};
+    TRY(bvh_cache_build(&tree, &source));
     TRY(device_open(&model->dev, device_index));
     TRY(ray_scene_open(&model->scene, model->dev, tree));
     *out = model;

@@ -1,7 +1,7 @@
 #include "render.h"
 
 #include "bodies.h"
-#include "bvh.h"
+#include "bvh_cache.h"
 #include "clock.h"
 #include "render_tile.h"
 #include "sun.h"
@@ -42,8 +42,11 @@ static status open_rays(render *r)
     NEED(corner, STATUS_MEMORY, "no memory for %u facets", g->facet_count);
     bodies_leave_out(s, corner);
     TRY(bodies_open(&r->shared.bodies, r->shared.dev, s));
-    TRY(bvh_build(&tree, g->facet_count, (const uint32_t(*)[4])corner,
-                  (const float(*)[3])g->position));
+    const bvh_source source = {.facet_count = g->facet_count,
+                               .vertex_count = g->vertex_count,
+                               .corner = (const uint32_t(*)[4])corner,
+                               .position = (const float(*)[3])g->position};
+    TRY(bvh_cache_build(&tree, &source));
     TRY(ray_scene_open(&r->shared.rays, r->shared.dev, tree));
     if (s->ground_material != RECORD_NONE)
         ray_scene_set_ground(r->shared.rays, g->facet_count,

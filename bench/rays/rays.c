@@ -71,10 +71,13 @@ static status prepare(bench *b, const char *name)
     const uint32_t most = 1 << 20;
 
     TRY(bench_mesh_make(&b->mesh, name));
+    const bvh_source source = {.facet_count = b->mesh->facet_count,
+                               .vertex_count = b->mesh->vertex_count,
+                               .corner = (const uint32_t(*)[4])b->mesh->corner,
+                               .position = (const float(*)[3])b->mesh->position};
     wall_s = clock_now_s();
     cpu_s = bench_cpu_s();
-    TRY(bvh_build(&b->tree, b->mesh->facet_count, (const uint32_t(*)[4])b->mesh->corner,
-                  (const float(*)[3])b->mesh->position));
+    TRY(bvh_build(&b->tree, &source));
     wall_s = clock_now_s() - wall_s;
     cpu_s = bench_cpu_s() - cpu_s;
     TRY(bench_embree_open(&b->embree[0], &robust_s, b->mesh, true));

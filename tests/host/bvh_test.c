@@ -39,9 +39,10 @@ static terrain *make_terrain(void)
 
 static bvh *build(uint32_t count, const uint32_t (*corner)[4], const float (*position)[3])
 {
+    const bvh_source source = {.facet_count = count, .corner = corner, .position = position};
     bvh *tree = NULL;
 
-    assert_int_equal(bvh_build(&tree, count, corner, position), STATUS_OK);
+    assert_int_equal(bvh_build(&tree, &source), STATUS_OK);
     return tree;
 }
 

@@ -10,6 +10,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCES = ["bvh.c", "bvh_binary.c", "polygon.c", "status.c"]
 
 
+class Source(ctypes.Structure):
+    _fields_ = [("facet_count", ctypes.c_uint32), ("vertex_count", ctypes.c_uint32)]
+    _fields_ += [("corner", ctypes.c_void_p), ("position", ctypes.c_void_p)]
+
+
 class Tables(ctypes.Structure):
     _fields_ = [("node", ctypes.c_void_p), ("block", ctypes.c_void_p)]
     _fields_ += [(name, ctypes.c_uint32)
@@ -36,9 +41,8 @@ def build(corner, position):
     corner = np.ascontiguousarray(corner, np.uint32)
     position = np.ascontiguousarray(position, np.float32)
     tree = ctypes.c_void_p()
-    code = _bvh.bvh_build(ctypes.byref(tree), ctypes.c_uint32(len(corner)),
-                          corner.ctypes.data_as(ctypes.c_void_p),
-                          position.ctypes.data_as(ctypes.c_void_p))
+    source = Source(len(corner), len(position), corner.ctypes.data, position.ctypes.data)
+    code = _bvh.bvh_build(ctypes.byref(tree), ctypes.byref(source))
     assert code == 0
     tables = _bvh.bvh_look(tree).contents
     nodes = np.frombuffer(ctypes.string_at(tables.node, 256 * tables.node_count), np.uint8)
