@@ -27,6 +27,8 @@ static const char help[] =
     "  --time ISO             time with offset, as 1987-06-24T10:00:00-05:00\n"
     "  --mode exact|thesis    exact integrals, or what the thesis did\n"
     "  --set TABLE.KEY=VALUE  change a value of the scene, as --set camera.twist_deg=10\n"
+    "  --probe COLUMN,ROW     also the spectra of that pixel, counted from 0,0 at the top left:\n"
+    "                         NAME_probe_COLUMN_ROW.csv and .png, every term of its radiance\n"
     "  --exr                  write NAME.exr above 16 bands too\n"
     "  --device N             OpenCL device, see radsig devices\n";
 
@@ -56,6 +58,15 @@ static bool add_size(command_settings *settings, const char *text)
     return command_settings_add(settings, "camera.pixels", value);
 }
 
+static bool take_probe(render_output_options *output, const char *text)
+{
+    char end;
+
+    output->wants_probe = true;
+    return strspn(text, "0123456789,") == strlen(text) && strlen(text) < 20 &&
+           sscanf(text, "%9u,%9u%c", &output->probe[0], &output->probe[1], &end) == 2;
+}
+
 /* Takes one option; false where its value is none. */
 static bool take_option(arguments *a, int option, const char *value)
 {
@@ -77,6 +88,8 @@ static bool take_option(arguments *a, int option, const char *value)
         return command_settings_add(&a->settings, "render.mode", value);
     case 'S':
         return strchr(value, '=') && command_settings_add(&a->settings, "", value);
+    case 'P':
+        return take_probe(&a->output, value);
     case 'd':
         return command_number(value, 0.0, 63.0, &a->device) && a->device == floor(a->device);
     default:
@@ -85,17 +98,13 @@ static bool take_option(arguments *a, int option, const char *value)
     }
 }
 
-static const struct option options[] = {{"output", required_argument, NULL, 'o'},
-                                        {"bands", required_argument, NULL, 'b'},
-                                        {"planes", required_argument, NULL, 'p'},
-                                        {"size", required_argument, NULL, 's'},
-                                        {"time", required_argument, NULL, 't'},
-                                        {"mode", required_argument, NULL, 'm'},
-                                        {"set", required_argument, NULL, 'S'},
-                                        {"exr", no_argument, NULL, 'x'},
-                                        {"device", required_argument, NULL, 'd'},
-                                        {"help", no_argument, NULL, 'h'},
-                                        {NULL, 0, NULL, 0}};
+static const struct option options[] = {
+    {"output", required_argument, NULL, 'o'}, {"bands", required_argument, NULL, 'b'},
+    {"planes", required_argument, NULL, 'p'}, {"size", required_argument, NULL, 's'},
+    {"time", required_argument, NULL, 't'},   {"mode", required_argument, NULL, 'm'},
+    {"set", required_argument, NULL, 'S'},    {"probe", required_argument, NULL, 'P'},
+    {"exr", no_argument, NULL, 'x'},          {"device", required_argument, NULL, 'd'},
+    {"help", no_argument, NULL, 'h'},         {NULL, 0, NULL, 0}};
 
 static const char *option_name(int option)
 {

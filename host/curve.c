@@ -60,7 +60,8 @@ static axes axes_of(const curve *c)
     a.low = a.high = height_of(&a, highest);
     for (size_t k = 0; k < c->line_count; k++)
         for (size_t i = 0; i < c->count; i++)
-            a.low = fmin(a.low, height_of(&a, c->line[k].value[i]));
+            if (!isnan(c->line[k].value[i]))
+                a.low = fmin(a.low, height_of(&a, c->line[k].value[i]));
     a.step = a.is_log ? 1.0 : round_step(a.high - a.low);
     a.low = a.step * floor(a.low / a.step);
     a.high = fmax(a.low + a.step, a.step * ceil(a.high / a.step));
@@ -106,14 +107,22 @@ out:
 /* Linear between the values, a column of the picture at a time. */
 static void draw_line(picture *pic, const axes *a, const curve *c, const curve_line *line)
 {
-    uint32_t last = row_of(a, height_of(a, line->value[0]));
+    uint32_t last = 0;
+    bool is_drawn = false;
 
     for (uint32_t column = 0, i = 0; column + PEN <= WIDTH; column++) {
         const double x = a->low_x + (a->high_x - a->low_x) * column / (WIDTH - 1);
         while (i + 2 < c->count && c->x[i + 1] < x) i++;
         const double share = (x - c->x[i]) / (c->x[i + 1] - c->x[i]);
         const double value = line->value[i] + share * (line->value[i + 1] - line->value[i]);
-        const uint32_t row = row_of(a, height_of(a, value)), upper = row < last ? row : last;
+        if (isnan(value)) {
+            is_drawn = false;
+            continue;
+        }
+        const uint32_t row = row_of(a, height_of(a, value));
+        if (!is_drawn) last = row;
+        is_drawn = true;
+        const uint32_t upper = row < last ? row : last;
         if (!a->is_log || value > a->least)
             picture_fill(pic, LEFT + column, upper, PEN, (row > last ? row : last) - upper + PEN,
                          line->rgb);
@@ -140,22 +149,42 @@ out:
     return rc;
 }
 
-status curve_write(const char *path, const curve *c)
+static status write_page(const output_file *place, const curve *c)
 {
     status rc = STATUS_OK;
     const axes a = axes_of(c);
-    output_file *file = NULL;
     picture *pic = NULL;
 
     TRY(picture_create(&pic, PAGE_WIDTH, PAGE_HEIGHT));
     TRY(draw_axes(pic, &a, c->x_unit));
     for (size_t k = 0; k < c->line_count; k++) draw_line(pic, &a, c, &c->line[k]);
     TRY(draw_names(pic, c));
+    TRY(picture_write(pic, place));
+out:
+    picture_free(pic);
+    return rc;
+}
+
+status curve_write(const char *path, const curve *c)
+{
+    status rc = STATUS_OK;
+    output_file *file = NULL;
+
     TRY(output_file_reserve(&file, path));
-    TRY(picture_write(pic, file));
+    TRY(write_page(file, c));
     TRY(output_file_commit(file));
 out:
     output_file_free(file);
-    picture_free(pic);
+    return rc;
+}
+
+status curve_write_into(output_folder *folder, const char *name, const curve *c)
+{
+    status rc = STATUS_OK;
+    const output_file *place;
+
+    TRY(output_folder_add(folder, name, &place));
+    TRY(write_page(place, c));
+out:
     return rc;
 }

@@ -2,7 +2,7 @@
 #ifndef CURVE_H
 #define CURVE_H
 
-#include "status.h"
+#include "output_folder.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -10,7 +10,7 @@
 
 typedef struct curve_line {
     const char *name;
-    const double *value; /* shape (count) */
+    const double *value; /* shape (count); NAN: a gap */
     uint8_t rgb[3];
 } curve_line;
 
@@ -26,5 +26,8 @@ typedef struct curve {
 
 /* Writes the picture; fails with STATUS_FILE where the file or the font cannot be opened. */
 status curve_write(const char *path, const curve *c);
+
+/* The same into a folder, which commits it. */
+status curve_write_into(output_folder *folder, const char *name, const curve *c);
 
 #endif

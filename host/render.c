@@ -211,6 +211,27 @@ out:
     return rc;
 }
 
+const spectra *render_spectra(const render *r)
+{
+    return r->shared.tables.bands;
+}
+
+status render_pixel_terms(render *r, uint32_t pixel, float *out)
+{
+    status rc = STATUS_OK;
+    device *dev = r->shared.dev;
+    const size_t bytes = (size_t)SENSOR_TERMS * r->shared.frame.sample_count * sizeof *out;
+    render_tile_memory t;
+
+    TRY(render_tile_open(&t, &r->shared, pixel, 1));
+    TRY(device_allocate(dev, &t.terms, bytes, NULL));
+    TRY(render_tile_compute(&t, &r->shared, true));
+    TRY(device_download(dev, t.terms, 0, bytes, out));
+out:
+    render_tile_free(&t);
+    return rc;
+}
+
 status render_pixel_day(render *r, uint32_t pixel, temperature_day *out)
 {
     status rc = STATUS_OK;

@@ -11,6 +11,7 @@
 #include "device.h"
 #include "render_plane.h"
 #include "scene.h"
+#include "spectra.h"
 #include "temperature.h"
 
 typedef struct render render;
@@ -48,6 +49,13 @@ void render_change_look(render *r, const render_look *look);
 /* The last 24 hours, up to the scene's time, of what a pixel of the present look shows. A pixel that
  * meets nothing has a day of no steps. */
 status render_pixel_day(render *r, uint32_t pixel, temperature_day *out);
+
+/* The samples of all bands, see spectra.h; they belong to the render. */
+const spectra *render_spectra(const render *r);
+
+/* The spectra that a pixel's planes are integrals of, by the kernel that makes them.
+ *   out   shape (SENSOR_TERMS, sample_count), W m-2 sr-1 um-1, tau2 1; the caller allocates */
+status render_pixel_terms(render *r, uint32_t pixel, float *out);
 
 /* Seconds of the stages before the first tile, on the host. */
 typedef struct render_stage {

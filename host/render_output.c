@@ -2,6 +2,7 @@
 
 #include "clock.h"
 #include "quick_look.h"
+#include "render_probe.h"
 #include "render_sensor.h"
 #include "render_summary.h"
 
@@ -60,6 +61,19 @@ out:
     return rc;
 }
 
+static status check_probe(const scene *s, const render_output_options *options)
+{
+    status rc = STATUS_OK;
+    const uint32_t *at = options->probe;
+
+    NEED(!options->wants_probe ||
+             (at[0] < (uint32_t)s->camera.columns && at[1] < (uint32_t)s->camera.rows),
+         STATUS_ARGUMENT, "there is no pixel in column %u, row %u to probe, expected 0,0 to %d,%d",
+         at[0], at[1], s->camera.columns - 1, s->camera.rows - 1);
+out:
+    return rc;
+}
+
 static char *file_name(char out[512], const scene *s, const char *plane, const char *extension)
 {
     snprintf(out, 512, "%s%s%s%s", s->name, *plane ? "_" : "", plane, extension);
@@ -96,6 +110,7 @@ static status open_writing(writing *w, const scene *s, device *dev,
 
     *w = (writing){.s = s, .options = options};
     site_format_time(s->place.time_s, 0, w->time);
+    TRY(check_probe(s, options));
     TRY(render_open(&w->r, s, dev));
     w->planes = render_planes(w->r, &w->plane_count);
     TRY(check_names(w));
@@ -250,6 +265,8 @@ static status write_files(writing *w, device *dev, double start)
     TRY(image_finish(w->cube, &header));
     if (w->truth) TRY(image_finish(w->truth, &header));
     TRY(write_sensor(w, dev, &header));
+    if (w->options->wants_probe)
+        TRY(render_probe_write(w->folder, w->s, w->r, w->options->probe[0], w->options->probe[1]));
     const render_summary summary = {.s = w->s,
                                     .scene_path = w->options->scene_path,
                                     .planes = w->planes,

@@ -13,9 +13,11 @@ enum { RENDER_OUTPUT_BANDS = 16 };
 typedef struct render_output_options {
     const char *scene_path; /* as the user gave it */
     const char *folder;
-    const char *planes;  /* truth planes, names with commas between; NULL: the default ones */
-    bool wants_exr;      /* also above RENDER_OUTPUT_BANDS bands */
-    bool shows_progress; /* on stderr */
+    const char *planes; /* truth planes, names with commas between; NULL: the default ones */
+    bool wants_probe;   /* of pixel (column, row), counted from 0 at the top left: render_probe.h */
+    uint32_t probe[2];
+    bool wants_exr;                    /* also above RENDER_OUTPUT_BANDS bands */
+    bool shows_progress;               /* on stderr */
     volatile sig_atomic_t *percent;    /* of the pixels, as they are done; NULL: nobody asks */
     const volatile sig_atomic_t *stop; /* ends the render with STATUS_INTERRUPTED when it is set */
 } render_output_options;

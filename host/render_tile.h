@@ -31,12 +31,14 @@ typedef struct render_tile_memory {
     device_memory incident; /* exact mode: spectra, shape (count, 2, samples) */
     device_memory body_paths, direct, background_direct; /* with bodies: see crossing.cl */
     device_memory truth_planes, band_planes;
+    device_memory terms; /* see radiometry.cl; NULL: not wanted */
 } render_tile_memory;
 
 /* The most pixels that a tile should hold: see render_tile_limit. */
 uint32_t render_tile_most(const render_shared *r);
 
-/* Takes memory for pixels first .. first + count - 1. After a failure too, render_tile_free is due. */
+/* Takes memory for pixels first .. first + count - 1, but for terms. After a failure too,
+ * render_tile_free is due. */
 status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t first,
                         uint32_t count);
 void render_tile_free(render_tile_memory *t);

@@ -9,6 +9,7 @@ typedef struct spectra_tables {
     global const float *incident;   /* of this pixel: shape (2, sample_count); NULL: thesis mode */
     global const float *extinction; /* shape (TRANSMISSION_MEDIA, sample_count); NULL: no bodies */
     global const transmission_path *bodies; /* of this pixel: shape (TRANSMISSION_PATHS), strided */
+    global float *terms; /* of this pixel, written: shape (SENSOR_TERMS, sample_count); or NULL */
 } spectra_tables;
 
 static spectrum load_row(spectra_tables tables, radiometry_record frame, uint row, uint block)
@@ -118,10 +119,20 @@ static from_above look_above(const pixel_state *pixel, spectra_tables tables,
     return out;
 }
 
+/* Writes one block of the spectra that the planes of the radiance's parts are integrals of. */
+static void store_terms(spectra_tables tables, radiometry_record frame, uint block,
+                        const spectrum *part, spectrum radiance)
+{
+    if (!tables.terms) return;
+    for (uint k = 0; k < RADIANCE_PARTS; k++)
+        spectrum_store(part[k], tables.terms + (size_t)k * frame.sample_count, block);
+    spectrum_store(radiance, tables.terms + (size_t)RADIANCE_PARTS * frame.sample_count, block);
+}
+
 /* Sums over the band of one pixel, of a block's samples side by side. */
 typedef struct band_sums {
     spectrum radiance, emissivity, background_emissivity;
-    spectrum part[6]; /* as the planes from BAND_PARTS on */
+    spectrum part[RADIANCE_PARTS]; /* as the planes from BAND_PARTS on */
 } band_sums;
 
 /* Adds one block of samples of a pixel that met a target. */
@@ -143,39 +154,54 @@ static void add_target(band_sums *sums, const pixel_state *pixel, spectra_tables
     const from_above above = look_above(pixel, tables, frame, block, &behind);
 
     if (tables.extinction) put_bodies(tables, frame, block, &tau2, &path);
-    sums->radiance += weight * sensor_radiance(surface_radiance(emissivity, black_body, sun,
-                                                                above.sky + above.background),
-                                               tau2, path);
+    const spectrum radiance = sensor_radiance(
+        surface_radiance(emissivity, black_body, sun, above.sky + above.background), tau2, path);
+    sums->radiance += weight * radiance;
     sums->emissivity += weight * emissivity;
     sums->background_emissivity += weight * behind;
     if (!frame.wants_parts) return;
-    sums->part[0] += weight * tau2 * emitted_radiance(emissivity, black_body);
-    sums->part[1] += weight * tau2 * (1.0f - emissivity) * sun;
-    sums->part[2] += weight * tau2 * (1.0f - emissivity) * above.sky;
-    sums->part[3] += weight * tau2 * (1.0f - emissivity) * above.background;
-    sums->part[4] += weight * path;
-    sums->part[5] += weight * tau2;
+    const spectrum reflected = tau2 * (1.0f - emissivity);
+    const spectrum part[RADIANCE_PARTS] = {tau2 * emitted_radiance(emissivity, black_body),
+                                           reflected * sun,
+                                           reflected * above.sky,
+                                           reflected * above.background,
+                                           path,
+                                           tau2};
+    for (uint k = 0; k < RADIANCE_PARTS; k++) sums->part[k] += weight * part[k];
+    store_terms(tables, frame, block, part, radiance);
 }
 
-/* Sums of a band. A missed ray has the sky of its direction, all of it path. */
+/* The same where nothing was met: the sky of the ray's direction, all of it path. */
+static void add_sky(band_sums *sums, const pixel_state *pixel, spectra_tables tables,
+                    radiometry_record frame, uint block, spectrum weight)
+{
+    const spectrum none = (spectrum)0.0f;
+    const spectrum radiance =
+        see_through(sky_radiance(sky_rows(tables, frame), frame, pixel->sky, block), tables, frame,
+                    TRANSMISSION_CAMERA, block);
+    const spectrum part[RADIANCE_PARTS] = {none, none, none, none, radiance, none};
+
+    sums->radiance += weight * radiance;
+    sums->part[4] += weight * radiance;
+    store_terms(tables, frame, block, part, radiance);
+}
+
+/* Sums of a band. */
 static band_sums sum_band(const pixel_state *pixel, spectra_tables tables, radiometry_record frame,
                           band_record band)
 {
     band_sums sums;
 
     sums.radiance = sums.emissivity = sums.background_emissivity = (spectrum)0.0f;
-    for (uint k = 0; k < 6u; k++) sums.part[k] = (spectrum)0.0f;
+    for (uint k = 0; k < RADIANCE_PARTS; k++) sums.part[k] = (spectrum)0.0f;
     for (uint k = 0; k < band.sample_count / SPECTRUM_WIDTH; k++) {
         const uint block = band.first_sample / SPECTRUM_WIDTH + k;
         const spectrum weight = load_row(tables, frame, SPECTRA_WEIGHT, block);
         if (pixel->interaction == INTERACTION_MISSED)
-            sums.radiance += weight * see_through(sky_radiance(sky_rows(tables, frame), frame,
-                                                               pixel->sky, block),
-                                                  tables, frame, TRANSMISSION_CAMERA, block);
+            add_sky(&sums, pixel, tables, frame, block, weight);
         else
             add_target(&sums, pixel, tables, frame, block, weight);
     }
-    if (pixel->interaction == INTERACTION_MISSED) sums.part[4] = sums.radiance;
     return sums;
 }
 
@@ -214,6 +240,8 @@ static pixel_state pixel_look(radiometry_record frame, camera_record camera, uin
  * extinction: shape (TRANSMISSION_MEDIA, sample_count), per m; bodies: see crossing.cl; both NULL in
  *   a scene without transmissive bodies
  * bands: band_record; ln_radiance: shape (band_count, BAND_TEMPERATURES)
+ * terms: shape (pixel_count, SENSOR_TERMS, sample_count), W m-2 sr-1 um-1: what the radiance at the
+ *   sensor is the sum of where that is wanted, tau2, and the radiance; NULL: not wanted
  * planes: shape (band_count, BAND_PLANES, pixel_count): radiance W m-2 sr-1 (or its mean per um),
  *   counts, apparent temperature C, emissivity, background emissivity; NO_VALUE where there is none;
  *   where they are wanted, what the radiance is the sum of, at the sensor: emitted by the target,
@@ -226,14 +254,18 @@ kernel void radiometry(const radiometry_record frame, const camera_record camera
                        global const float *emissivity, global const float *incident,
                        global const float *extinction, global const transmission_path *bodies,
                        global const band_record *bands, global const float *ln_radiance,
-                       global float *planes)
+                       global float *terms, global float *planes)
 {
     const uint pixel = get_global_id(0);
     if (pixel >= frame.pixel_count) return;
 
     const spectra_tables tables = {
-        spectra, emissivity, frame.thesis ? 0 : incident + (size_t)pixel * 2u * frame.sample_count,
-        extinction, bodies + pixel};
+        spectra,
+        emissivity,
+        frame.thesis ? 0 : incident + (size_t)pixel * 2u * frame.sample_count,
+        extinction,
+        bodies + pixel,
+        terms ? terms + (size_t)pixel * SENSOR_TERMS * frame.sample_count : 0};
     const pixel_state state =
         pixel_look(frame, camera, pixel, hit[pixel], background[pixel], sunlit[pixel],
                    background_sunlit[pixel], facets, materials, temperature_k[pixel]);
@@ -255,7 +287,7 @@ kernel void radiometry(const radiometry_record frame, const camera_record camera
         out[4u * plane] = state.background_temperature_k > 0.0f
                               ? spectrum_sum(sums.background_emissivity) * per_um
                               : NO_VALUE;
-        for (uint k = 0; k < 6u && frame.wants_parts; k++)
+        for (uint k = 0; k < RADIANCE_PARTS && frame.wants_parts; k++)
             out[(BAND_PARTS + k) * plane] = spectrum_sum(sums.part[k]) * (k == 5u ? per_um : scale);
     }
 }

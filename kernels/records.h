@@ -175,10 +175,13 @@ RECORD_SIZE(band_record, 32);
 
 /* Planes that the radiometry writes per band, and those that it writes once. */
 #define BAND_PLANES 11u
-#define BAND_PARTS                                                                                 \
-    5u /* the first of six: emitted, of the sun, the sky, the background; path, tau2 */
+#define BAND_PARTS 5u     /* the first of the parts of the radiance */
+#define RADIANCE_PARTS 6u /* emitted, of the sun, the sky, the background; path, tau2 */
 #define TRUTH_PLANES 11u
 #define SUN_PLANES 2u /* behind those: of the sun's history */
+
+/* Spectra of a pixel at the sensor: its RADIANCE_PARTS, then the radiance itself. */
+#define SENSOR_TERMS (RADIANCE_PARTS + 1u)
 
 /* A band of the detectors; radiances in the unit of its plane. */
 typedef struct detector_record {

@@ -35,7 +35,7 @@ def run(opencl, case, options=""):
     arrays = [case.facets, case.materials, case.pixel_k, case.hit, case.background,
               case.sunlit, case.background_sunlit, case.spectra, case.emissivity, case.incident,
               case.extinction, case.body_paths,
-              case.bands, np.array(tables, np.float32)]
+              case.bands, np.array(tables, np.float32), None]
     arguments = [case.frame[0], case.camera[0], *(a if a is None else probe.copy(opencl, a) for a in arrays)]
     shape = (len(case.bands), records.BAND_PLANES, len(case.hit))
     return probe.launch(opencl, opencl.build("radiometry", options), len(case.hit), arguments, shape)
