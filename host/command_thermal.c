@@ -1,8 +1,8 @@
 #include "command.h"
+#include "command_sensitivity.h"
 #include "command_value.h"
 #include "constants.h"
 #include "curve.h"
-#include "material.h"
 #include "thermal.h"
 #include "weather_place.h"
 
@@ -18,6 +18,9 @@ static const char help[] =
     "                      --date YYYY-MM-DD --utc-offset H --thickness-cm X\n"
     "                      [--slope D --azimuth D --power-w-m2 X --model therm|layered\n"
     "                       --plot FILE.png]\n"
+    "       radsig thermal --sensitivity --materials FILE --weather FILE --site LAT,LON\n"
+    "                      --date YYYY-MM-DD --utc-offset H\n"
+    "                      [--objects FILE.csv | --thickness-cm X ...] [--runs N --seed N]\n"
     "\n"
     "Takes one facet in full sun through a weather history and prints time_h,temperature_c, a row\n"
     "per weather record. Degrees north and east are positive.\n"
@@ -29,51 +32,82 @@ static const char help[] =
     "  --power-w-m2   self-generated (default 0)\n"
     "  --model        therm (the default), or layered: unequal nodes, McAdams' convection, air\n"
     "                 behind where abs(exposed area) is above .75\n"
-    "  --plot         draws the temperatures and the air's\n";
+    "  --plot         draws the temperatures and the air's\n"
+    "\n"
+    "With --sensitivity one input after the other is off by its measurement error, and the table\n"
+    "input,error,unit,rmse_c,sigma_c,thesis_rmse_c,ratio says what that does to the temperatures "
+    "of\n"
+    "the last full day, beside Tables 3.1.1-1 and 3.1.2-1 of the thesis.\n"
+    "\n"
+    "  --objects      what is studied: a table with the header\n"
+    "                 material,thickness_cm,slope_deg,azimuth_deg,power_w_m2; without it "
+    "--material,\n"
+    "                 or every material of the list, as the options above say\n"
+    "  --runs         of each input (default 100)\n"
+    "  --seed         of the random numbers (default 1)\n"
+    "  --plot         draws the standard deviations over the hours\n";
 
 typedef struct thermal_request {
     const char *materials, *material, *weather;
     site place;
-    const char *plot;
+    const char *plot, *objects;
     double slope_deg, azimuth_deg, thickness_cm, power_w_m2;
-    bool is_layered;
+    double runs, seed;
+    bool is_layered, is_sensitivity;
 } thermal_request;
 
 enum {
     MATERIALS,
-    MATERIAL,
     WEATHER,
     SITE,
     DATE,
     OFFSET,
+    MATERIAL,
     SLOPE,
     AZIMUTH,
     THICKNESS,
     POWER,
     MODEL,
-    PLOT
+    PLOT,
+    OBJECTS,
+    RUNS,
+    SEED,
+    VALUES,
+    HELP = VALUES,
+    SENSITIVITY,
+    REQUIRED = MATERIAL
 };
-enum { VALUES = PLOT + 1, HELP = VALUES, REQUIRED = SLOPE };
 
 static const struct option options[] = {[MATERIALS] = {"materials", 1, NULL, MATERIALS},
-                                        [MATERIAL] = {"material", 1, NULL, MATERIAL},
                                         [WEATHER] = {"weather", 1, NULL, WEATHER},
                                         [SITE] = {"site", 1, NULL, SITE},
                                         [DATE] = {"date", 1, NULL, DATE},
                                         [OFFSET] = {"utc-offset", 1, NULL, OFFSET},
+                                        [MATERIAL] = {"material", 1, NULL, MATERIAL},
                                         [SLOPE] = {"slope", 1, NULL, SLOPE},
                                         [AZIMUTH] = {"azimuth", 1, NULL, AZIMUTH},
                                         [THICKNESS] = {"thickness-cm", 1, NULL, THICKNESS},
                                         [POWER] = {"power-w-m2", 1, NULL, POWER},
                                         [MODEL] = {"model", 1, NULL, MODEL},
                                         [PLOT] = {"plot", 1, NULL, PLOT},
+                                        [OBJECTS] = {"objects", 1, NULL, OBJECTS},
+                                        [RUNS] = {"runs", 1, NULL, RUNS},
+                                        [SEED] = {"seed", 1, NULL, SEED},
                                         [HELP] = {"help", 0, NULL, HELP},
+                                        [SENSITIVITY] = {"sensitivity", 0, NULL, SENSITIVITY},
                                         {0}};
 
 static int check_number(const char *text, int option, double low, double high, double *out)
 {
     if (!text || command_number(text, low, high, out)) return 0;
     return command_misuse("thermal", "--%s '%s': expected a number from %g to %g",
+                          options[option].name, text, low, high);
+}
+
+static int check_whole(const char *text, int option, double low, double high, double *out)
+{
+    if (!text || (command_number(text, low, high, out) && *out == floor(*out))) return 0;
+    return command_misuse("thermal", "--%s '%s': expected a whole number from %.0f to %.0f",
                           options[option].name, text, low, high);
 }
 
@@ -94,13 +128,30 @@ static int check_place(char *value[VALUES], site *out)
     return 0;
 }
 
+/* What only one of the two uses takes. */
+static int check_use(char *value[VALUES], const thermal_request *request)
+{
+    const bool has_facet =
+        value[MATERIAL] || value[THICKNESS] || value[SLOPE] || value[AZIMUTH] || value[POWER];
+
+    for (int i = OBJECTS; i <= SEED; i++)
+        if (value[i] && !request->is_sensitivity)
+            return command_misuse("thermal", "--%s needs --sensitivity", options[i].name);
+    if (value[OBJECTS] && has_facet)
+        return command_misuse("thermal", "--objects says what a facet's options say: give one");
+    if (!value[MATERIAL] && !request->is_sensitivity)
+        return command_misuse("thermal", "needs --material");
+    if (!value[THICKNESS] && !value[OBJECTS])
+        return command_misuse("thermal",
+                              "needs --thickness-cm: a material has none, its facets have");
+    return 0;
+}
+
 static int check_values(char *value[VALUES], thermal_request *out)
 {
     for (int i = 0; i < REQUIRED; i++)
         if (!value[i]) return command_misuse("thermal", "needs --%s", options[i].name);
-    if (!value[THICKNESS])
-        return command_misuse("thermal",
-                              "needs --thickness-cm: a material has none, its facets have");
+    if (check_use(value, out)) return EXIT_USAGE;
     if (value[MODEL] && strcmp(value[MODEL], "therm") && strcmp(value[MODEL], "layered"))
         return command_misuse("thermal", "--model '%s': expected therm or layered", value[MODEL]);
     out->is_layered = value[MODEL] && !strcmp(value[MODEL], "layered");
@@ -108,12 +159,15 @@ static int check_values(char *value[VALUES], thermal_request *out)
     if (check_number(value[SLOPE], SLOPE, 0.0, 180.0, &out->slope_deg) ||
         check_number(value[AZIMUTH], AZIMUTH, -360.0, 360.0, &out->azimuth_deg) ||
         check_number(value[THICKNESS], THICKNESS, 1e-4, 1e4, &out->thickness_cm) ||
-        check_number(value[POWER], POWER, 0.0, 1e6, &out->power_w_m2))
+        check_number(value[POWER], POWER, 0.0, 1e6, &out->power_w_m2) ||
+        check_whole(value[RUNS], RUNS, 1.0, 1e6, &out->runs) ||
+        check_whole(value[SEED], SEED, 0.0, 4294967295.0, &out->seed))
         return EXIT_USAGE;
     out->materials = value[MATERIALS];
     out->material = value[MATERIAL];
     out->weather = value[WEATHER];
     out->plot = value[PLOT];
+    out->objects = value[OBJECTS];
     return 0;
 }
 
@@ -126,6 +180,10 @@ static int read_arguments(int argc, char **argv, thermal_request *out)
     opterr = 0;
     while ((option = getopt_long(argc, argv, "+:", options, NULL)) != -1) {
         if (option == HELP) return -1;
+        if (option == SENSITIVITY) {
+            out->is_sensitivity = true;
+            continue;
+        }
         if (option < 0 || option >= VALUES)
             return command_misuse("thermal", "'%s' %s", argv[optind - 1],
                                   option == ':' ? "needs a value" : "is no option");
@@ -150,18 +208,6 @@ static facet_record facet_of(const thermal_request *request)
     };
 }
 
-static material_record record_of(const material *m)
-{
-    return (material_record){
-        .density_kg_m3 = (float)m->density_kg_m3,
-        .specific_heat_j_kg_k = (float)m->specific_heat_j_kg_k,
-        .conductivity_w_m_k = (float)m->conductivity_w_m_k,
-        .solar_absorptance = (float)m->solar_absorptance,
-        .thermal_emissivity = (float)m->thermal_emissivity,
-        .exposed_area = (float)m->exposed_area,
-    };
-}
-
 static status compute(const facet_record *facet, const thermal_matter *matter, const weather *w,
                       const site *place, float *out_temperature_k)
 {
@@ -171,7 +217,7 @@ static status compute(const facet_record *facet, const thermal_matter *matter, c
 
     TRY(device_open(&dev, -1));
     TRY(thermal_open(&t, dev, matter, w, place));
-    TRY(thermal_history(t, facet, out_temperature_k));
+    TRY(thermal_histories(t, facet, 1, out_temperature_k));
 out:
     thermal_free(t);
     device_free(dev);
@@ -219,11 +265,9 @@ static status run(const thermal_request *request)
     TRY(material_library_read(&library, request->materials));
     const material *named = material_by_name(library, request->material);
     NEED(named, STATUS_ARGUMENT, "%s: has no material '%s'", request->materials, request->material);
-    record = record_of(named);
+    record = command_material_record(named);
     TRY(weather_read(&w, request->weather));
-    const site end = {request->place.latitude_deg, request->place.longitude_deg,
-                      request->place.time_s + 86399.0, request->place.utc_offset_min};
-    weather_place_check(w, &end, request->weather);
+    weather_place_check_day(w, &request->place, request->weather);
     temperature_k = malloc(w->count * sizeof *temperature_k);
     NEED(temperature_k, STATUS_MEMORY, "no memory for %zu temperatures", w->count);
     TRY(compute(&facet, &matter, w, &request->place, temperature_k));
@@ -239,12 +283,29 @@ out:
     return rc;
 }
 
+static status run_sensitivity(const thermal_request *r)
+{
+    const sensitivity_request request = {.materials = r->materials,
+                                         .weather = r->weather,
+                                         .material = r->material,
+                                         .objects = r->objects,
+                                         .plot = r->plot,
+                                         .facet = facet_of(r),
+                                         .place = r->place,
+                                         .is_layered = r->is_layered,
+                                         .runs = (uint32_t)r->runs,
+                                         .seed = (uint32_t)r->seed};
+
+    return command_sensitivity(&request);
+}
+
 int command_thermal(int argc, char **argv)
 {
-    thermal_request request = {0};
+    thermal_request request = {.runs = 100.0, .seed = 1.0};
     const int misuse = read_arguments(argc, argv, &request);
 
     if (misuse < 0) fputs(help, stdout);
     if (misuse) return misuse < 0 ? 0 : misuse;
-    return command_end("thermal", run(&request));
+    return command_end("thermal",
+                       request.is_sensitivity ? run_sensitivity(&request) : run(&request));
 }

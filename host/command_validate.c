@@ -208,7 +208,7 @@ static status predict(const validation *v, const weather *w, float *out_k)
 
     TRY(device_open(&dev, -1));
     TRY(thermal_open(&t, dev, &matter, w, &v->place));
-    TRY(thermal_history(t, &v->facet, out_k));
+    TRY(thermal_histories(t, &v->facet, 1, out_k));
 out:
     thermal_free(t);
     device_free(dev);

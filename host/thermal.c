@@ -336,10 +336,10 @@ out:
     return rc;
 }
 
-status thermal_history(const thermal *t, const facet_record *facet, float *out_temperature_k)
+status thermal_histories(const thermal *t, const facet_record *facet, size_t count,
+                         float *out_temperature_k)
 {
-    facet_record one = *facet;
-    const batch b = {.facet = &one, .count = 1};
+    const batch b = {.facet = (facet_record *)facet, .count = count};
     const thermal_span span = {.row_count = (uint)t->step_count, .weight = 1.0f};
 
     return compute(t, &b, span, out_temperature_k);

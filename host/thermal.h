@@ -50,8 +50,10 @@ status thermal_at_time(const thermal *t, const thermal_subject *subject, float *
 status thermal_day(const thermal *t, const thermal_subject *subject, long last,
                    float *out_temperature_k);
 
-/* Computes the temperatures of one facet at every step of the weather, always lit.
- *   out_temperature_k   shape (weather's count) */
-status thermal_history(const thermal *t, const facet_record *facet, float *out_temperature_k);
+/* Computes the temperatures of facets at every step of the weather, always lit.
+ *   facet               shape (count)
+ *   out_temperature_k   shape (weather's count, count) */
+status thermal_histories(const thermal *t, const facet_record *facet, size_t count,
+                         float *out_temperature_k);
 
 #endif

@@ -42,3 +42,11 @@ void weather_place_check(const weather *w, const site *place, const char *name)
         status_warn("%s: begins %.4g h before the image, less than a day", name,
                     time_h - w->record[0].time_h);
 }
+
+void weather_place_check_day(const weather *w, const site *midnight, const char *name)
+{
+    site end = *midnight;
+
+    end.time_s += 86399.0;
+    weather_place_check(w, &end, name);
+}

@@ -9,4 +9,7 @@
  *   name   of the history, for the message */
 void weather_place_check(const weather *w, const site *place, const char *name);
 
+/* The same for the whole day that begins at the site's time. */
+void weather_place_check_day(const weather *w, const site *midnight, const char *name);
+
 #endif

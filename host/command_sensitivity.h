@@ -1,0 +1,30 @@
+/* Command sensitivity: what `radsig thermal --sensitivity` does once its arguments are read. */
+#ifndef COMMAND_SENSITIVITY_H
+#define COMMAND_SENSITIVITY_H
+
+#include "material.h"
+#include "records.h"
+#include "site.h"
+#include "status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct sensitivity_request {
+    const char *materials, *weather;
+    const char *material; /* NULL: every one of the list */
+    const char *objects;  /* a table of objects; NULL: materials as `facet` */
+    const char *plot;     /* NULL: none */
+    facet_record facet;
+    site place;
+    bool is_layered;
+    uint32_t runs, seed;
+} sensitivity_request;
+
+/* Runs the study and prints its table. */
+status command_sensitivity(const sensitivity_request *request);
+
+/* The record of a material for temperatures. */
+material_record command_material_record(const material *m);
+
+#endif
