@@ -6,7 +6,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-enum { CHUNK = 1 << 15 };
+/* Facets that are sampled at once, and pixels of a work-item of incident.cl, its LANES_WIDTH. */
+enum { CHUNK = 1 << 15, PIXELS_AT_ONCE = 16 };
 
 struct incident {
     const ray_scene *scene;
@@ -188,13 +189,15 @@ status incident_run(const incident *in, const incident_pixels *p, device_memory 
     status rc = STATUS_OK;
     const uint32_t cells = shape_factor_cell_count(in->grid);
     const device_memory cell = shape_factor_cells(in->grid);
+    const uint32_t groups = (p->frame.pixel_count + PIXELS_AT_ONCE - 1) / PIXELS_AT_ONCE;
+    const device_shape shape = {{groups, 1}, 4};
 
-    TRY(device_run(ray_scene_device(in->scene), "incident", shape1(p->frame.pixel_count),
-                   ARG(p->frame), ARG(p->camera), ARG(cells), ARG(in->dome_count), ARG(cell),
-                   ARG(in->dome), ARG(in->tables.facet), ARG(in->tables.material),
-                   ARG(in->tables.temperature_k), ARG(in->facet_background), ARG(p->points.hit),
-                   ARG(p->background), ARG(p->background_lit), ARG(p->points.met), ARG(p->spectra),
-                   ARG(p->emissivity), ARG(out)));
+    TRY(device_run(ray_scene_device(in->scene), "incident", shape, ARG(p->frame), ARG(p->camera),
+                   ARG(cells), ARG(in->dome_count), ARG(cell), ARG(in->dome), ARG(in->tables.facet),
+                   ARG(in->tables.material), ARG(in->tables.temperature_k),
+                   ARG(in->facet_background), ARG(p->points.hit), ARG(p->background),
+                   ARG(p->background_lit), ARG(p->points.met), ARG(p->spectra), ARG(p->emissivity),
+                   ARG(out)));
     if (p->bodies) TRY(run_bodies(in, p, out));
 out:
     return rc;

@@ -1,47 +1,117 @@
 #include "surroundings.h"
 
-/* Facets that are held at once; more rays take further rounds. */
-#define ROUND 64u
+/* Cells whose facets are held at once. */
+#define ROUND 16u
 
-/* Weights of the sky's directions for a diffuse surface. The cells that see the sky count what they
- * weigh; what the cells above the horizon miss of the open sky's integral is added by the share of
- * the sky that is seen.
+/* LANES_WIDTH neighbouring pixels; a lane past the end is a missed one. */
+typedef struct incident_group {
+    uint first, lane_count;
+    uint diffuse; /* a bit per lane that is */
+    uint kind[LANES_WIDTH], facet[LANES_WIDTH];
+    diffuse_view view;
+} incident_group;
+
+/* The grid of the hemisphere and what its rays met, see hemisphere.cl. */
+typedef struct incident_cells {
+    uint count;
+    global const float *cell;
+    global const uint *met;
+} incident_cells;
+
+static inline lanes lanes_of_bit(uint bits)
+{
+    lanes out = (lanes)0.0f;
+
+    for (uint i = 0; i < LANES_WIDTH; i++) LANES_SET(out, i, (float)(bits >> i & 1u));
+    return out;
+}
+
+static inline float lane_of(const lanes *from, uint lane)
+{
+    return ((const float *)from)[lane];
+}
+
+/* Adds to the weights of the table's directions what the cells that see the sky count more than
+ * their share of it, and those that do not less. */
+static void count_cells(lanes *weights, radiometry_record frame, const incident_group *g,
+                        incident_cells cells)
+{
+    const lanes is_diffuse = lanes_of_bit(g->diffuse);
+    const float degree = 180.0f / PI_F;
+    lanes direction[3];
+
+    for (uint c = 0; c < cells.count; c++) {
+        const lanes_bits word =
+            lanes_load_bits(cells.met + (size_t)c * frame.pixel_count, g->first, frame.pixel_count);
+        const lanes sees = word == RECORD_NONE ? (lanes)1.0f : (lanes)0.0f;
+        hemisphere_lanes_direction(&g->view.axes, cells.cell + 4u * c, direction);
+        const lanes weight =
+            is_diffuse * cells.cell[4u * c + 3u] *
+            (direction[2] > 0.0f ? g->view.above * (sees - g->view.seen) : g->view.below * sees);
+        if (!lanes_any(weight != 0.0f)) continue;
+        const lanes turn = atan2(direction[0], direction[1]) * degree;
+        const lanes azimuth = turn < 0.0f ? turn + 360.0f : turn;
+        const lanes zenith = acos(clamp(direction[2], -1.0f, 1.0f)) * degree;
+        for (uint i = 0; i < LANES_WIDTH; i++) {
+            if (lane_of(&weight, i) == 0.0f) continue;
+            const sky_lookup at = sky_place(frame, lane_of(&zenith, i), lane_of(&azimuth, i));
+            incident_add_sky((float *)weights + i, LANES_WIDTH, frame, at, lane_of(&weight, i));
+        }
+    }
+}
+
+/* Weights of the sky's directions for diffuse surfaces, 0 for others. The cells that see the sky
+ * count what they weigh; what the cells above the horizon miss of the open sky's integral is added by
+ * the share of the sky that is seen.
  *   dome   (dome_count, 8): direction, solid angle, and its place in the table: rows and shares of
  *          zenith and azimuth */
-static void count_sky(float *weights, radiometry_record frame, const float *normal,
-                      diffuse_view view, uint cell_count, global const float *cell,
-                      global const uint *met, uint stride, uint dome_count,
-                      global const float *dome)
+static void count_sky(lanes *weights, radiometry_record frame, const incident_group *g,
+                      incident_cells cells, uint dome_count, global const float *dome)
 {
-    float open = 0.0f, exact = 0.0f, direction[3];
+    const lanes *normal = g->view.axes.normal;
+    const uint directions = frame.zenith_count * frame.azimuth_count;
+    lanes open = (lanes)0.0f;
 
-    for (uint c = 0; c < cell_count; c++) {
-        const float of_cell = cell_direction(&view.axes, cell, c, direction);
-        const uint is_above = direction[2] > 0.0f;
-        const float sees = met[(size_t)c * stride] == RECORD_NONE ? 1.0f : 0.0f;
-        const float weight =
-            of_cell * (is_above ? view.above * (sees - view.seen) : view.below * sees);
-        exact += is_above ? of_cell * view.above : 0.0f;
-        if (weight != 0.0f)
-            incident_add_sky(weights, frame,
-                             sky_find(frame, direction[0], direction[1], direction[2]), weight);
+    for (uint d = 0; d < directions; d++) weights[d] = (lanes)0.0f;
+    for (uint d = 0; d < dome_count; d++) {
+        const float8 at = vload8(d, dome);
+        const lanes facing =
+            fmax((at.s0 * normal[0] + at.s1 * normal[1] + at.s2 * normal[2]) * at.s3, 0.0f);
+        const uint low = (uint)at.s4, left = (uint)at.s6;
+        lanes *lower = weights + low * frame.azimuth_count;
+        lanes *upper = weights + min(low + 1u, frame.zenith_count - 1u) * frame.azimuth_count;
+        const uint right = min(left + 1u, frame.azimuth_count - 1u);
+        open += facing;
+        lower[left] += facing * ((1.0f - at.s5) * (1.0f - at.s7));
+        lower[right] += facing * ((1.0f - at.s5) * at.s7);
+        upper[left] += facing * (at.s5 * (1.0f - at.s7));
+        upper[right] += facing * (at.s5 * at.s7);
     }
-    for (uint pass = 0; pass < 2u && view.seen > 0.0f; pass++)
-        for (uint d = 0; d < dome_count; d++) {
-            const float8 at = vload8(d, dome);
-            const float facing =
-                fmax((at.s0 * normal[0] + at.s1 * normal[1] + at.s2 * normal[2]) * at.s3, 0.0f);
-            if (pass == 0u) {
-                open += facing;
-            } else if (facing > 0.0f) {
-                const uint low = (uint)at.s4, left = (uint)at.s6;
-                const uint high = min(low + 1u, frame.zenith_count - 1u);
-                const uint right = min(left + 1u, frame.azimuth_count - 1u);
-                incident_add_sky(weights, frame,
-                                 (sky_lookup){{low, high, at.s5}, {left, right, at.s7}},
-                                 facing / open * exact * view.seen);
-            }
+    const lanes scale =
+        lanes_of_bit(g->diffuse) * (open > 0.0f ? g->view.open * g->view.seen / open : (lanes)0.0f);
+    for (uint d = 0; d < directions; d++) weights[d] *= scale;
+    count_cells(weights, frame, g, cells);
+}
+
+/* Writes the sky's radiance by the weights of its directions. */
+static void write_sky(const lanes *weights, radiometry_record frame, const incident_group *g,
+                      global const float *spectra, global float *out)
+{
+    const uint row = frame.sample_count, directions = frame.zenith_count * frame.azimuth_count;
+    global const float *sky = spectra + (size_t)(SPECTRA_PATHS + 2u * frame.path_count) * row;
+
+    for (uint block = 0; block < row / SPECTRUM_WIDTH; block++) {
+        spectrum sum[LANES_WIDTH];
+        UNROLL
+        for (uint i = 0; i < LANES_WIDTH; i++) sum[i] = (spectrum)0.0f;
+        for (uint d = 0; d < directions; d++) {
+            const spectrum radiance = spectrum_load(sky + (size_t)d * row, block);
+            UNROLL
+            for (uint i = 0; i < LANES_WIDTH; i++) sum[i] += lane_of(&weights[d], i) * radiance;
         }
+        for (uint i = 0; i < g->lane_count; i++)
+            spectrum_store(sum[i], out + (size_t)i * 2u * row, block);
+    }
 }
 
 /* Adds what `count` facets send to every sample of a pixel. */
@@ -66,25 +136,105 @@ static void add_facets(const incident_facet *facets, uint count, radiometry_reco
     }
 }
 
-static void write_sky(const float *weights, radiometry_record frame, global const float *spectra,
-                      global float *out)
-{
-    const uint row = frame.sample_count, directions = frame.zenith_count * frame.azimuth_count;
-    global const float *sky = spectra + (size_t)(SPECTRA_PATHS + 2u * frame.path_count) * row;
+/* Facets that the lanes see through the cells of a round. */
+typedef struct incident_round {
+    incident_facet seen[LANES_WIDTH][ROUND];
+    uint count[LANES_WIDTH];
+} incident_round;
 
-    for (uint block = 0; block < row / SPECTRUM_WIDTH; block++) {
-        spectrum sum = (spectrum)0.0f;
-        for (uint d = 0; d < directions; d++)
-            if (weights[d] != 0.0f) sum += weights[d] * spectrum_load(sky + (size_t)d * row, block);
-        spectrum_store(sum, out, block);
+/* Adds the facets that the lanes see through a cell. */
+static void see_cell(incident_round *round, const incident_group *g, around from,
+                     radiometry_record frame, incident_cells cells, uint c)
+{
+    const lanes_bits word =
+        lanes_load_bits(cells.met + (size_t)c * frame.pixel_count, g->first, frame.pixel_count);
+    lanes direction[3], cosine = (lanes)1.0f;
+
+    hemisphere_lanes_direction(&g->view.axes, cells.cell + 4u * c, direction);
+    const lanes weight =
+        cells.cell[4u * c + 3u] * (direction[2] > 0.0f ? g->view.above : g->view.below);
+    uint met = g->diffuse;
+    for (uint i = 0; i < LANES_WIDTH; i++) {
+        const uint met_word = ((const uint *)&word)[i];
+        const float along[3] = {lane_of(&direction[0], i), lane_of(&direction[1], i),
+                                lane_of(&direction[2], i)};
+        float lane_cosine;
+        if (met_word == RECORD_NONE) met &= ~(1u << i);
+        if (!(met >> i & 1u)) continue;
+        round->seen[i][round->count[i]] =
+            see_face(from, frame, met_word & ~HEMISPHERE_LIT, lane_of(&weight, i),
+                     met_word & HEMISPHERE_LIT ? 1.0f : 0.0f, along, &lane_cosine);
+        LANES_SET(cosine, i, lane_cosine);
     }
+    const lanes angle_deg = acos(fmin(cosine, 1.0f)) * (180.0f / PI_F);
+    for (uint i = 0; i < LANES_WIDTH; i++) {
+        if (!(met >> i & 1u)) continue;
+        const uint facet = ((const uint *)&word)[i] & ~HEMISPHERE_LIT;
+        round->seen[i][round->count[i]++].emissivity = lookup_emissivity(
+            from.materials[from.facets[facet].material], lane_of(&angle_deg, i), 0u);
+    }
+}
+
+/* Adds what the facets around diffuse pixels send. */
+static void add_cells(const incident_group *g, around from, radiometry_record frame,
+                      incident_cells cells, global const float *spectra,
+                      global const float *emissivity, global float *out)
+{
+    incident_round round;
+
+    for (uint first = 0; first < cells.count; first += ROUND) {
+        const uint end = min(first + ROUND, cells.count);
+        for (uint i = 0; i < LANES_WIDTH; i++) round.count[i] = 0;
+        for (uint c = first; c < end; c++) see_cell(&round, g, from, frame, cells, c);
+        for (uint i = 0; i < LANES_WIDTH; i++)
+            if (round.count[i] > 0)
+                add_facets(round.seen[i], round.count[i], frame, spectra, emissivity,
+                           out + 2u * i * frame.sample_count);
+    }
+}
+
+/* Takes pixels `first` and following; what their rays met is looked at by `look_around`. */
+static incident_group take_group(uint first, radiometry_record frame, around from,
+                                 incident_cells cells, global const hit_record *hit,
+                                 global const background_record *background)
+{
+    incident_group g = {.first = first};
+    lanes normal[3] = {(lanes)0.0f, (lanes)0.0f, (lanes)1.0f};
+
+    g.lane_count = min((uint)LANES_WIDTH, frame.pixel_count - first);
+    for (uint i = 0; i < LANES_WIDTH; i++) {
+        g.kind[i] = INTERACTION_MISSED;
+        if (i >= g.lane_count || hit[first + i].facet == RECORD_NONE) continue;
+        const background_record mirrored = background[first + i];
+        const uint material = from.facets[hit[first + i].facet].material;
+        g.kind[i] = pixel_interaction(from.materials[material], mirrored);
+        g.facet[i] = mirrored.facet;
+        for (int k = 0; k < 3; k++) LANES_SET(normal[k], i, hit[first + i].normal[k]);
+        g.diffuse |= (uint)(g.kind[i] == INTERACTION_DIFFUSE) << i;
+    }
+    g.view = look_around(normal, g.diffuse ? cells.count : 0u, cells.cell, cells.met, first,
+                         frame.pixel_count);
+    return g;
+}
+
+/* The direction into which a lane reflects the sensor's ray. */
+static void reflect_ray(const incident_group *g, uint lane, radiometry_record frame,
+                        camera_record camera, float *out)
+{
+    const float normal[3] = {lane_of(&g->view.axes.normal[0], lane),
+                             lane_of(&g->view.axes.normal[1], lane),
+                             lane_of(&g->view.axes.normal[2], lane)};
+    float ray[3];
+
+    pixel_ray(camera, frame.columns, frame.first_pixel + g->first + lane, ray);
+    for (int k = 0; k < 3; k++) out[k] = ray[k] - 2.0f * pixel_dot(ray, normal) * normal[k];
 }
 
 /* Radiance that reaches every pixel's surface, weighted for its reflection: each ray of the
  * hemisphere brings the facet that it met (its own temperature, emissivity at the ray's angle, sun
  * and share of the sky) or the sky of its direction; a mirror has one ray. Exact counterpart of the
  * background in eq. 2.4-1 and 2.4-2.
- * Launch: (frame.pixel_count).
+ * Launch: (frame.pixel_count / LANES_WIDTH, rounded up).
  * cell: (cell_count, 4), met: (cell_count, pixel_count), see hemisphere.cl; dome: (dome_count, 8)
  * facets, temperature_k, facet_background: per facet, the ground's behind the real ones
  * hit, background, background_lit: per pixel; the last two are read for mirrors
@@ -99,50 +249,31 @@ kernel void incident(const radiometry_record frame, const camera_record camera,
                      global const uint *met, global const float *spectra,
                      global const float *emissivity, global float *out)
 {
-    const uint pixel = get_global_id(0);
-    if (pixel >= frame.pixel_count) return;
-    const hit_record at = hit[pixel];
-    if (at.facet == RECORD_NONE) return;
-
+    const uint first = get_global_id(0) * LANES_WIDTH;
+    if (first >= frame.pixel_count) return;
     const around from = {facets, materials, temperature_k, facet_background};
-    const background_record mirrored = background[pixel];
-    const uint kind = pixel_interaction(materials[facets[at.facet].material], mirrored);
-    const uint rays = kind == INTERACTION_DIFFUSE ? cell_count : 0u;
-    const diffuse_view view = look_around(at.normal, rays, cell, met + pixel, frame.pixel_count);
-    global float *from_sky = out + (size_t)pixel * 2u * frame.sample_count;
-    global float *from_facets = from_sky + frame.sample_count;
-    float weights[INCIDENT_DIRECTIONS], direction[3];
-    incident_facet seen[ROUND];
-    uint count = 0;
+    const incident_cells cells = {cell_count, cell, met};
+    const incident_group g = take_group(first, frame, from, cells, hit, background);
+    const uint row = frame.sample_count;
+    global float *from_sky = out + (size_t)first * 2u * row, *from_facets = from_sky + row;
+    lanes weights[INCIDENT_DIRECTIONS];
+    float ray[3];
 
-    for (uint d = 0; d < frame.zenith_count * frame.azimuth_count; d++) weights[d] = 0.0f;
-    if (kind == INTERACTION_DIFFUSE) {
-        count_sky(weights, frame, at.normal, view, cell_count, cell, met + pixel, frame.pixel_count,
-                  dome_count, dome);
-    } else {
-        float ray[3];
-        pixel_ray(camera, frame.columns, frame.first_pixel + pixel, ray);
-        for (int k = 0; k < 3; k++)
-            direction[k] = ray[k] - 2.0f * pixel_dot(ray, at.normal) * at.normal[k];
-        if (kind == INTERACTION_SPECULAR_SKY)
-            incident_add_sky(weights, frame,
-                             sky_find(frame, direction[0], direction[1], direction[2]), 1.0f);
-        else
-            seen[count++] =
-                see_facet(from, frame, mirrored.facet, 1.0f, background_lit[pixel], direction);
+    count_sky(weights, frame, &g, cells, dome_count, dome);
+    for (uint i = 0; i < LANES_WIDTH; i++) {
+        if (g.kind[i] != INTERACTION_SPECULAR_SKY) continue;
+        reflect_ray(&g, i, frame, camera, ray);
+        incident_add_sky((float *)weights + i, LANES_WIDTH, frame,
+                         sky_find(frame, ray[0], ray[1], ray[2]), 1.0f);
     }
-    write_sky(weights, frame, spectra, from_sky);
-    for (uint k = 0; k < frame.sample_count; k++) from_facets[k] = 0.0f;
-    for (uint c = 0; c < rays; c++) {
-        const uint word = met[(size_t)c * frame.pixel_count + pixel];
-        if (word == RECORD_NONE) continue;
-        const float weight = cell_direction(&view.axes, cell, c, direction);
-        seen[count++] = see_facet(from, frame, word & ~HEMISPHERE_LIT,
-                                  weight * (direction[2] > 0.0f ? view.above : view.below),
-                                  word & HEMISPHERE_LIT ? 1.0f : 0.0f, direction);
-        if (count < ROUND) continue;
-        add_facets(seen, count, frame, spectra, emissivity, from_facets);
-        count = 0;
+    write_sky(weights, frame, &g, spectra, from_sky);
+    for (uint i = 0; i < g.lane_count; i++) {
+        for (uint k = 0; k < row; k++) from_facets[i * 2u * row + k] = 0.0f;
+        if (g.kind[i] != INTERACTION_SPECULAR_BACKGROUND) continue;
+        reflect_ray(&g, i, frame, camera, ray);
+        const incident_facet seen =
+            see_facet(from, frame, g.facet[i], 1.0f, background_lit[first + i], ray);
+        add_facets(&seen, 1u, frame, spectra, emissivity, from_facets + i * 2u * row);
     }
-    if (count > 0) add_facets(seen, count, frame, spectra, emissivity, from_facets);
+    if (g.diffuse) add_cells(&g, from, frame, cells, spectra, emissivity, from_facets);
 }

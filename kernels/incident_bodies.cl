@@ -1,3 +1,5 @@
+/* A pixel a work-item. */
+#define LANES_WIDTH 1
 #include "crossing.h"
 #include "surroundings.h"
 
@@ -113,7 +115,7 @@ kernel void incident_bodies(
     const uint is_diffuse = kind == INTERACTION_DIFFUSE;
     const uint rays = is_diffuse ? cell_count : 1u;
     const diffuse_view view =
-        look_around(at.normal, is_diffuse ? rays : 0u, cell, met + pixel, frame.pixel_count);
+        look_around(at.normal, is_diffuse ? rays : 0u, cell, met, pixel, frame.pixel_count);
     global float *from_sky = out + (size_t)pixel * 2u * frame.sample_count;
     float direction[3], ray_in[3];
 
@@ -124,7 +126,8 @@ kernel void incident_bodies(
         float weight = 1.0f, lit = background_lit[pixel];
         if (is_diffuse) {
             const uint word = met[(size_t)c * frame.pixel_count + pixel];
-            weight = cell_direction(&view.axes, cell, c, direction);
+            hemisphere_lanes_direction(&view.axes, cell + 4u * c, direction);
+            weight = cell[4u * c + 3u];
             weight *= direction[2] > 0.0f ? view.above : view.below;
             lit = word != RECORD_NONE && (word & HEMISPHERE_LIT) ? 1.0f : 0.0f;
         }

@@ -38,6 +38,9 @@ static inline lanes_bits lanes_load_bits(global const uint *from, uint first, ui
 {
     lanes_bits out;
 
+#if LANES_WIDTH == 16
+    if (first + LANES_WIDTH <= count) return vload16(0, from + first);
+#endif
     for (uint i = 0; i < LANES_WIDTH; i++) ((uint *)&out)[i] = from[lanes_place(first, i, count)];
     return out;
 }

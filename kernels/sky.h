@@ -8,21 +8,22 @@ typedef struct sky_lookup {
     lookup zenith, azimuth;
 } sky_lookup;
 
-/* Finds a direction (unit, ENU) in the table; below the horizon, the horizon. */
+/* Finds a place in the table; below the horizon, the horizon. Azimuth clockwise from north, 0 .. 360. */
+static inline sky_lookup sky_place(radiometry_record frame, float zenith_deg, float azimuth_deg)
+{
+    return (sky_lookup){
+        lookup_regular(zenith_deg, 0.0f, frame.zenith_step_deg, frame.zenith_count),
+        lookup_regular(azimuth_deg, 0.0f, frame.azimuth_step_deg, frame.azimuth_count)};
+}
+
+/* Finds a direction (unit, ENU). */
 static inline sky_lookup sky_find(radiometry_record frame, float x, float y, float z)
 {
     const float degree = 180.0f / PI_F;
-    sky_lookup at;
-    float azimuth_deg = atan2(x, y) * degree;
+    const float azimuth_deg = atan2(x, y) * degree;
+    const float zenith_deg = acos(z < -1.0f ? -1.0f : z > 1.0f ? 1.0f : z) * degree;
 
-    if (azimuth_deg < 0.0f) azimuth_deg += 360.0f;
-    at.zenith = lookup_regular(acos(z < -1.0f  ? -1.0f
-                                    : z > 1.0f ? 1.0f
-                                               : z) *
-                                   degree,
-                               0.0f, frame.zenith_step_deg, frame.zenith_count);
-    at.azimuth = lookup_regular(azimuth_deg, 0.0f, frame.azimuth_step_deg, frame.azimuth_count);
-    return at;
+    return sky_place(frame, zenith_deg, azimuth_deg < 0.0f ? azimuth_deg + 360.0f : azimuth_deg);
 }
 
 #ifdef __OPENCL_C_VERSION__

@@ -2,7 +2,7 @@
 #ifndef SURROUNDINGS_H
 #define SURROUNDINGS_H
 
-#include "hemisphere.h"
+#include "hemisphere_lanes.h"
 #include "incident.h"
 #include "pixel.h"
 
@@ -14,9 +14,11 @@ typedef struct around {
     global const background_record *facet_background;
 } around;
 
-/* A facet seen from a point along a unit direction. */
-static inline incident_facet see_facet(around from, radiometry_record frame, uint facet,
-                                       float weight, float lit, const float *direction)
+/* A facet seen from a point along a unit direction, without its emissivity.
+ *   out_cosine   of the angle from its normal to the ray */
+static inline incident_facet see_face(around from, radiometry_record frame, uint facet,
+                                      float weight, float lit, const float *direction,
+                                      float *out_cosine)
 {
     const facet_record seen = from.facets[facet];
     const float along = -pixel_dot(seen.normal, direction);
@@ -27,47 +29,54 @@ static inline incident_facet see_facet(around from, radiometry_record frame, uin
     out.temperature_k = from.temperature_k[facet];
     out.sun = lit * fmax(facing * pixel_dot(seen.normal, frame.sun), 0.0f);
     out.shape_factor = from.facet_background[facet].shape_factor;
-    out.emissivity =
-        lookup_emissivity(from.materials[seen.material], pixel_angle_deg(fabs(along)), 0u);
+    *out_cosine = fabs(along);
     return out;
 }
 
-/* The hemisphere of a diffuse surface: axes of its cells, and factors of the weights of cells above
- * and below the horizon, which give both their exact shares, (1 + cos slope) / 2 of it the sky's. */
-typedef struct diffuse_view {
-    hemisphere_frame axes;
-    float above, below;
-    float seen; /* of the cells above the horizon, the share that sees the sky */
-} diffuse_view;
-
-static inline float cell_direction(const hemisphere_frame *axes, global const float *cell, uint c,
-                                   float *out)
+/* The same with its emissivity. */
+static inline incident_facet see_facet(around from, radiometry_record frame, uint facet,
+                                       float weight, float lit, const float *direction)
 {
-    float in_frame[4];
+    float cosine;
+    incident_facet out = see_face(from, frame, facet, weight, lit, direction, &cosine);
 
-    vstore4(vload4(c, cell), 0, in_frame);
-    hemisphere_direction(axes, in_frame, out);
-    return in_frame[3];
+    out.emissivity =
+        lookup_emissivity(from.materials[from.facets[facet].material], pixel_angle_deg(cosine), 0u);
+    return out;
 }
 
-static inline diffuse_view look_around(const float *normal, uint cell_count,
-                                       global const float *cell, global const uint *met,
-                                       uint stride)
+/* The hemispheres of LANES_WIDTH diffuse surfaces: axes of their cells, and factors of the weights of
+ * cells above and below the horizon, which give both their exact shares, (1 + cos slope) / 2 of it the
+ * sky's. */
+typedef struct diffuse_view {
+    hemisphere_lanes axes;
+    lanes above, below;
+    lanes open; /* the sky's share of an open hemisphere */
+    lanes seen; /* of the cells above the horizon, the share that sees the sky */
+} diffuse_view;
+
+/* Looks at what the rays of pixels first .. first + LANES_WIDTH - 1 of `count` met.
+ *   cell   (cell_count, 4), met: (cell_count, count): see hemisphere.cl */
+static inline diffuse_view look_around(const lanes *normal, uint cell_count,
+                                       global const float *cell, global const uint *met, uint first,
+                                       uint count)
 {
-    diffuse_view view = {.axes = hemisphere_frame_of(normal)};
-    const float share = 0.5f * (1.0f + normal[2]);
-    float above = 0.0f, seen = 0.0f, direction[3];
+    diffuse_view view = {.axes = hemisphere_lanes_of(normal)};
+    const lanes share = 0.5f * (1.0f + normal[2]);
+    lanes above = (lanes)0.0f, seen = (lanes)0.0f, direction[3];
 
     for (uint c = 0; c < cell_count; c++) {
-        const float weight = cell_direction(&view.axes, cell, c, direction);
-        if (direction[2] <= 0.0f) continue;
+        const lanes_bits word = lanes_load_bits(met + (size_t)c * count, first, count);
+        hemisphere_lanes_direction(&view.axes, cell + 4u * c, direction);
+        const lanes weight = direction[2] > 0.0f ? (lanes)cell[4u * c + 3u] : (lanes)0.0f;
         above += weight;
-        seen += met[(size_t)c * stride] == RECORD_NONE ? weight : 0.0f;
+        seen += word == RECORD_NONE ? weight : (lanes)0.0f;
     }
-    const uint has_both = above > 1e-6f && above < 1.0f - 1e-6f;
-    view.above = has_both ? share / above : 1.0f;
-    view.below = has_both ? (1.0f - share) / (1.0f - above) : 1.0f;
-    view.seen = above > 0.0f ? seen / above : 0.0f;
+    const lanes_mask has_both = (above > 1e-6f) & (above < 1.0f - 1e-6f);
+    view.above = has_both ? share / above : (lanes)1.0f;
+    view.below = has_both ? (1.0f - share) / (1.0f - above) : (lanes)1.0f;
+    view.open = above * view.above;
+    view.seen = above > 0.0f ? seen / above : (lanes)0.0f;
     return view;
 }
 
