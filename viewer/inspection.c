@@ -124,47 +124,69 @@ static void draw_cross(const preview *p)
 }
 
 /* The plots stand on the pixel's side, above it or below it. */
-static void draw_plots(const preview *p, size_t pixel)
+static preview_rectangle place_plots(const preview *p)
 {
-    const double pad = 6.0 * p->scale, height = canvas_line_height(p->c, CANVAS_TEXT);
-    const double each = PLOT_HEIGHT * p->scale + 1.3 * height, width = PLOT_WIDTH * p->scale;
-    const bool has_day = preview_has_day(p),
-               has_spectrum = p->live->of->s->band_count >= SPECTRUM_BANDS;
+    const double pad = 6.0 * p->scale, width = PLOT_WIDTH * p->scale;
+    const double each = PLOT_HEIGHT * p->scale + 1.3 * canvas_line_height(p->c, CANVAS_TEXT);
+    const int count = preview_has_day(p) + (p->live->of->s->band_count >= SPECTRUM_BANDS);
     const bool is_left = p->pick_column <= p->wish.columns / 2;
-    preview_rectangle plot = {p->picture.x + (is_left ? pad : p->picture.width - width - pad),
-                              p->picture.y + pad, width, PLOT_HEIGHT * p->scale};
+    const bool is_above = p->pick_row > p->wish.rows / 2;
 
-    if (p->pick_row <= p->wish.rows / 2)
-        plot.y += p->picture.height - pad - (has_day + has_spectrum) * each;
-    if (has_day) day_plot_draw(p, plot);
-    if (has_day) plot.y += each;
-    if (has_spectrum) draw_spectrum(p, pixel, plot);
+    return (preview_rectangle){
+        .x = p->picture.x + (is_left ? pad : p->picture.width - width - pad),
+        .y = p->picture.y + (is_above ? pad : p->picture.height - count * each),
+        .width = width,
+        .height = count * each,
+    };
+}
+
+static void draw_plots(const preview *p, size_t pixel, preview_rectangle all)
+{
+    preview_rectangle plot = {all.x, all.y, all.width, PLOT_HEIGHT * p->scale};
+
+    if (preview_has_day(p)) {
+        day_plot_draw(p, plot);
+        plot.y += plot.height + 1.3 * canvas_line_height(p->c, CANVAS_TEXT);
+    }
+    if (p->live->of->s->band_count >= SPECTRUM_BANDS) draw_spectrum(p, pixel, plot);
+}
+
+/* The lines stand on the side where the pixel is not, and where that is too narrow, clear of the
+ * plots too; there are as many as fit. */
+static void draw_lines(const preview *p, const lines *l, preview_rectangle plots)
+{
+    const double height = canvas_line_height(p->c, CANVAS_TEXT), pad = 6.0 * p->scale;
+    double y = p->picture.y + pad, room = p->picture.height - 2.0 * pad;
+    int width = 0;
+
+    for (int i = 0; i < l->count; i++) {
+        const int wide = canvas_text_width(p->c, CANVAS_TEXT, l->text[i]);
+        width = wide > width ? wide : width;
+    }
+    if (width + 4.0 * pad + plots.width > p->picture.width) {
+        if (plots.y < y + pad) y += plots.height;
+        room -= plots.height;
+    }
+    const int count = (int)fmax(0.0, fmin(l->count, floor((room - pad) / height)));
+    const double x = p->pick_column > p->wish.columns / 2
+                         ? p->picture.x + pad
+                         : p->picture.x + fmax(pad, p->picture.width - width - 3.0 * pad);
+    if (count > 0) canvas_fill(p->c, x, y, width + 2.0 * pad, count * height + pad, paper);
+    for (int i = 0; i < count; i++)
+        canvas_text(p->c, x + pad, y + 0.5 * pad + i * height, CANVAS_TEXT, ink, l->text[i]);
 }
 
 void inspection_draw(const preview *p)
 {
     lines l = {.count = 0};
     const size_t pixel = preview_pixel(p, p->live, p->pick_column, p->pick_row);
-    const double height = canvas_line_height(p->c, CANVAS_TEXT), pad = 6.0 * p->scale;
-    int width = 0;
+    const preview_rectangle plots = place_plots(p);
 
     add(&l, "column %d, row %d", p->pick_column, p->pick_row);
     add_names(&l, p->live, pixel);
     add_values(&l, p, pixel);
-    l.count = (int)fmin(l.count, floor((p->picture.height - 3.0 * pad) / height)); /* what fits */
-    for (int i = 0; i < l.count; i++) {
-        const int wide = canvas_text_width(p->c, CANVAS_TEXT, l.text[i]);
-        width = wide > width ? wide : width;
-    }
-    /* On the side where the pixel is not. */
-    const double x = p->pick_column > p->wish.columns / 2
-                         ? p->picture.x + pad
-                         : p->picture.x + fmax(pad, p->picture.width - width - 3.0 * pad);
-    canvas_fill(p->c, x, p->picture.y + pad, width + 2.0 * pad, l.count * height + pad, paper);
-    for (int i = 0; i < l.count; i++)
-        canvas_text(p->c, x + pad, p->picture.y + 1.5 * pad + i * height, CANVAS_TEXT, ink,
-                    l.text[i]);
-    draw_plots(p, pixel);
+    draw_lines(p, &l, plots);
+    draw_plots(p, pixel, plots);
     draw_cross(p);
 }
 

@@ -26,20 +26,30 @@ void preview_page_size(int columns, int rows, double scale, int *out_width, int 
     *out_height = larger(rows + (int)(scale * (TOP + FOOT)), (int)(scale * LEAST_HEIGHT));
 }
 
+/* Pixels of the page that are left for the picture. */
+static void find_room(const preview *p, int *out_width, int *out_height)
+{
+    *out_width = larger(16, p->width - (int)(p->scale * (2 * MARGIN + SIDE)));
+    *out_height = larger(16, p->height - (int)(p->scale * (TOP + FOOT)));
+}
+
 void page_fit(const preview *p, int *out_columns, int *out_rows)
 {
-    *out_columns = larger(16, p->width - (int)(p->scale * (2 * MARGIN + SIDE)));
-    *out_rows = larger(16, p->height - (int)(p->scale * (TOP + FOOT)));
+    const int each = larger(1, (int)p->scale);
+
+    find_room(p, out_columns, out_rows);
+    *out_columns = larger(16, *out_columns / each);
+    *out_rows = larger(16, *out_rows / each);
 }
 
 /* A small picture is enlarged by a whole factor, so that its pixels stay alike. */
 void page_place(preview *p)
 {
-    int columns, rows;
+    int width, height;
 
-    page_fit(p, &columns, &rows);
+    find_room(p, &width, &height);
     const double factor =
-        fmax(1.0, floor(fmin((double)columns / p->wish.columns, (double)rows / p->wish.rows)));
+        fmax(1.0, floor(fmin((double)width / p->wish.columns, (double)height / p->wish.rows)));
     p->picture = (preview_rectangle){floor(p->scale * MARGIN), floor(p->scale * TOP),
                                      factor * p->wish.columns, factor * p->wish.rows};
 }

@@ -8,7 +8,7 @@
 /* Sets where the picture of the wish stands on the page. */
 void page_place(preview *p);
 
-/* Sets the size of the picture that fills the page. */
+/* Sets the size of the picture that fills the page; on a dense screen its pixels are larger. */
 void page_fit(const preview *p, int *out_columns, int *out_rows);
 
 status page_draw(preview *p);

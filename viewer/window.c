@@ -208,6 +208,7 @@ status window_open(surface **out, int width, int height)
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     w->glfw = glfwCreateWindow(width, height, "radsig", NULL, NULL);
     NEED(w->glfw, STATUS_DEVICE, "no window with OpenGL 3.3 can be opened: %s", reason());
     glfwMakeContextCurrent(w->glfw);

@@ -1,4 +1,6 @@
 """The window, driven by keys and pointer like a person's, on a virtual screen."""
+import ctypes
+import ctypes.util
 import pathlib
 import shutil
 import subprocess
@@ -15,18 +17,31 @@ MISSING = [name for name in ("Xvfb", "xdotool") if not shutil.which(name)]
 pytestmark = pytest.mark.skipif(bool(MISSING), reason=f"{' and '.join(MISSING)} missing: make deps")
 
 
+def state_density(display, dots_per_inch):
+    """Tells the programs of a screen how dense it is, as a desktop does: the resource Xft.dpi."""
+    x11 = ctypes.CDLL(ctypes.util.find_library("X11"))
+    resource_manager, string, text = 23, 31, f"Xft.dpi:\t{dots_per_inch}\n".encode()
+    x11.XOpenDisplay.restype, x11.XDefaultRootWindow.restype = ctypes.c_void_p, ctypes.c_ulong
+    link = ctypes.c_void_p(x11.XOpenDisplay(display.encode()))
+    root = ctypes.c_ulong(x11.XDefaultRootWindow(link))
+    x11.XChangeProperty(link, root, ctypes.c_ulong(resource_manager), ctypes.c_ulong(string), 8, 0, text,
+                        len(text))
+    x11.XCloseDisplay(link)
+
+
 class Person:
     """Someone at a window on a screen of its own."""
 
-    def __init__(self, preview, scene, folder, size):
+    def __init__(self, preview, scene, folder, size, dots_per_inch=96):
         self.screen = subprocess.Popen(
-            ["Xvfb", "-displayfd", "1", "-screen", "0", "1280x1024x24"], stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL, text=True)
+            ["Xvfb", "-displayfd", "1", "-noreset", "-screen", "0", "1280x1024x24"],
+            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         self.folder = folder
         # GLX's driver is unloaded before leaks are looked for, and then has no name that could be
         # suppressed: leaks are looked for by the tests without a window.
         self.environment = {**preview.environment(), "ASAN_OPTIONS": "detect_leaks=0",
                             "DISPLAY": ":" + self.screen.stdout.readline().strip()}
+        state_density(self.environment["DISPLAY"], dots_per_inch)
         self.program = subprocess.Popen([preview.radsig, "view", scene, "--size", size], cwd=folder,
                                         env=self.environment, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True)
@@ -50,6 +65,7 @@ class Person:
         words = self.program.stdout.readline().split()
         while words[0] == "pixel":
             picked[words[3]] = float(words[4])
+            self.picked = int(words[1]), int(words[2])
             words = self.program.stdout.readline().split()
         for _ in range(95):  # of the day's 96 lines the first is read
             assert words[0] == "day"
@@ -71,14 +87,25 @@ class Person:
         return self.program.wait(30)
 
 
+    def leave(self):
+        self.program.kill()
+        self.program.wait()
+        self.screen.terminate()
+        self.screen.wait()
+
+
 @pytest.fixture
 def person(preview, scene, tmp_path):
     someone = Person(preview, scene, tmp_path, "480x320")
     yield someone
-    someone.program.kill()
-    someone.program.wait()
-    someone.screen.terminate()
-    someone.screen.wait()
+    someone.leave()
+
+
+@pytest.fixture
+def person_at_dense_screen(preview, scene, tmp_path):
+    someone = Person(preview, scene, tmp_path, "480x320", dots_per_inch=192)
+    yield someone
+    someone.leave()
 
 
 def ink(page):
@@ -127,3 +154,19 @@ def test_a_drag_orbits_and_a_resized_window_has_a_larger_picture(preview, person
     assert views[0] != views[1]
     assert "pixels = [480, 320]" in views[1]
     assert "pixels = [726, 618]" in views[2]  # less the margins of 174 and 82 pixels
+
+
+def test_on_a_dense_screen_all_is_twice_as_large_and_a_click_finds_its_pixel(person_at_dense_screen):
+    person = person_at_dense_screen
+    person.click(2 * (12 + 240), 2 * (56 + 160))
+    person.values()
+    page = read_png(person.page(1))
+    geometry = person.do("getwindowgeometry", person.window)
+    code = person.end()
+
+    assert code == 0 and "1308x804" in geometry  # 480 + 174 by 320 + 82 pixels, doubled
+    assert person.picked == (240, 160)
+    left = page[2 * 56:2 * (56 + 150), 2 * 12:2 * (12 + 150)]  # clear of cross, values and arrow
+    blocks = left.reshape(150, 2, 150, 2, 3)
+    assert (blocks == blocks[:, :1, :, :1]).all()  # a pixel of the picture covers two by two
+    assert len(np.unique(left)) > 2
