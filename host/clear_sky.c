@@ -4,10 +4,9 @@
 
 #include <math.h>
 
-/* What Bird's model takes for granted: ozone 0.3 cm, aerosol optical depth .15 at .38 um and .1 at
- * .5 um, asymmetry .85, ground albedo .2 (the report's clear mid-latitude case). */
+/* What Bird's model takes for granted: ozone 0.3 cm, asymmetry .85, ground albedo .2 (the report's
+ * clear mid-latitude case). */
 #define OZONE_CM 0.3
-#define AEROSOL_DEPTH (0.27583 * 0.15 + 0.35 * 0.1)
 #define ASYMMETRY 0.85
 #define ALBEDO 0.2
 
@@ -16,13 +15,12 @@ typedef struct clear_sky_terms {
     double ozone, gases, water, rayleigh, aerosol, aerosol_absorption; /* transmissions */
 } clear_sky_terms;
 
-static clear_sky_terms clear_sky_transmissions(double zenith_rad, double pressure_pa,
-                                               double water_cm)
+static clear_sky_terms clear_sky_transmissions(const clear_sky_air *air, double zenith_rad)
 {
     const double zenith_deg = zenith_rad * 180.0 / M_PI;
     const double mass = 1.0 / (cos(zenith_rad) + 0.15 * pow(93.885 - zenith_deg, -1.253));
-    const double pressed = mass * pressure_pa / 101325.0;
-    const double o = OZONE_CM * mass, w = water_cm * mass, a = AEROSOL_DEPTH;
+    const double pressed = mass * air->pressure_pa / 101325.0;
+    const double o = OZONE_CM * mass, w = air->water_cm * mass, a = air->aerosol;
     const double aerosol = exp(-pow(a, 0.873) * (1.0 + a - pow(a, 0.7088)) * pow(mass, 0.9108));
 
     return (clear_sky_terms){
@@ -37,13 +35,13 @@ static clear_sky_terms clear_sky_transmissions(double zenith_rad, double pressur
     };
 }
 
-void clear_sky_irradiance(double zenith_rad, double distance_au, double pressure_pa,
-                          double water_cm, double *out_direct_w_m2, double *out_diffuse_w_m2)
+void clear_sky_irradiance(const clear_sky_air *air, double zenith_rad, double distance_au,
+                          double *out_direct_w_m2, double *out_diffuse_w_m2)
 {
     *out_direct_w_m2 = *out_diffuse_w_m2 = 0.0;
     if (zenith_rad >= 0.5 * M_PI) return;
 
-    const clear_sky_terms t = clear_sky_transmissions(zenith_rad, pressure_pa, water_cm);
+    const clear_sky_terms t = clear_sky_transmissions(air, zenith_rad);
     const double extraterrestrial = (double)SOLAR_CONSTANT_W_M2 / (distance_au * distance_au);
     const double gases = t.ozone * t.gases * t.water;
     const double scattering = 1.0 - t.aerosol / t.aerosol_absorption;

@@ -58,7 +58,7 @@ static void read_celsius(scene_table *t, const char *key, double *out_k)
 
 static void read_summary(scene_table *t, weather_summary *summary)
 {
-    double kind, pressure_hpa;
+    double kind, pressure_hpa, rain_mm_h;
 
     scene_table_require(t, "air_temperature_sunrise_c", "degrees C, or history = a .wth file");
     scene_table_require(t, "air_temperature_peak_c", "degrees C");
@@ -76,6 +76,12 @@ static void read_summary(scene_table *t, weather_summary *summary)
     scene_table_number(t, "sky_exposure", 0.0, 1.0, &summary->sky_exposure);
     if (scene_table_number(t, "cloud_type", 0.0, WEATHER_CLOUD_TYPES - 1, &kind))
         summary->cloud_type = (int)kind;
+    scene_table_number(t, "sunrise_h", 0.0, 24.0, &summary->sunrise_h);
+    scene_table_number(t, "sunset_h", 0.0, 24.0, &summary->sunset_h);
+    scene_table_number(t, "high_noon_transmission", 0.0, 1.0, &summary->high_noon_transmission);
+    if (scene_table_number(t, "rain_mm_h", 0.0, 1000.0, &rain_mm_h))
+        summary->rain_m_s = rain_mm_h / 3.6e6;
+    read_celsius(t, "rain_temperature_c", &summary->rain_temperature_k);
 }
 
 /* The site may have failed: its place is then no place to compare with. */

@@ -1,6 +1,7 @@
 #include "weather_synthesis.h"
 
 #include "clear_sky.h"
+#include "cloud_sky.h"
 #include "constants.h"
 #include "sun.h"
 
@@ -16,6 +17,9 @@ enum { RECORDS = 193, INTERVAL_S = 900 };
 #define SPAN_H 6.6458
 #define DECAY_PER_H 1.14
 
+/* A stated sunrise or sunset may differ by this from the sun's: refraction, and a rounded clock. */
+#define RISE_TOLERANCE_H 0.25
+
 weather_summary weather_summary_default(void)
 {
     return (weather_summary){
@@ -26,6 +30,10 @@ weather_summary weather_summary_default(void)
         .wind_m_s = NAN,
         .pressure_pa = 101325.0,
         .sky_exposure = 1.0,
+        .rain_temperature_k = NAN,
+        .sunrise_h = NAN,
+        .sunset_h = NAN,
+        .high_noon_transmission = NAN,
     };
 }
 
@@ -62,6 +70,11 @@ static double air_temperature_k(const temperature_day *day, double time_h)
     return day->low_k + day->range_k * share;
 }
 
+static double stated_or(double value, double otherwise)
+{
+    return isnan(value) ? otherwise : value;
+}
+
 static status check_summary(const weather_summary *s)
 {
     status rc = STATUS_OK;
@@ -78,6 +91,11 @@ static status check_summary(const weather_summary *s)
         {"pressure in mbar", s->pressure_pa / 100.0, 300.0, 1100.0},
         {"sky exposure", s->sky_exposure, 0.0, 1.0},
         {"cloud type", s->cloud_type, 0.0, WEATHER_CLOUD_TYPES - 1},
+        {"rain in mm/h", s->rain_m_s * 3.6e6, 0.0, 1000.0},
+        {"rain temperature in C", stated_or(s->rain_temperature_k, KELVIN) - KELVIN, -100.0, 70.0},
+        {"time of sunrise in h", stated_or(s->sunrise_h, 0.0), 0.0, 24.0},
+        {"time of sunset in h", stated_or(s->sunset_h, 24.0), stated_or(s->sunrise_h, 0.0), 24.0},
+        {"transmission at high noon", stated_or(s->high_noon_transmission, 1.0), 0.0, 1.0},
     };
 
     for (size_t i = 0; i < sizeof range / sizeof *range; i++)
@@ -88,6 +106,20 @@ out:
     return rc;
 }
 
+static void warn_about_times(const weather_summary *s, double rise_h, double set_h)
+{
+    if (s->sunrise_h < rise_h - RISE_TOLERANCE_H)
+        status_warn(
+            "weather: the stated sunrise, %.4g h, comes before the site's of that day, %.4g "
+            "h: is it of another date, place or offset?",
+            s->sunrise_h, rise_h);
+    if (s->sunset_h > set_h + RISE_TOLERANCE_H)
+        status_warn(
+            "weather: the stated sunset, %.4g h, comes after the site's of that day, %.4g h: "
+            "is it of another date, place or offset?",
+            s->sunset_h, set_h);
+}
+
 static status find_day(temperature_day *day, const weather_summary *s, const site *place,
                        double midnight_s)
 {
@@ -95,7 +127,10 @@ static status find_day(temperature_day *day, const weather_summary *s, const sit
     double rise_h = s->peak_time_h - SPAN_H, set_h = s->peak_time_h + SPAN_H;
 
     /* Where the sun stays up or down the fitted curve stands alone. */
-    sun_rise_and_set(midnight_s, place->latitude_deg, place->longitude_deg, &rise_h, &set_h);
+    if (sun_rise_and_set(midnight_s, place->latitude_deg, place->longitude_deg, &rise_h, &set_h))
+        warn_about_times(s, rise_h, set_h);
+    rise_h = stated_or(s->sunrise_h, rise_h);
+    set_h = stated_or(s->sunset_h, set_h);
     *day = (temperature_day){
         .rise_h = rise_h,
         .peak_h = fmod(s->peak_time_h - rise_h + 24.0, 24.0),
@@ -122,19 +157,104 @@ static void set_air(weather_record *r, const weather_summary *s, const temperatu
     r->wind_m_s = s->wind_m_s;
     r->sky_exposure = s->sky_exposure;
     r->cloud_type = s->cloud_type;
-    r->precipitation_temperature_k = KELVIN;
+    r->precipitation_type = s->rain_m_s > 0.0;
+    r->precipitation_m_s = s->rain_m_s;
+    r->precipitation_temperature_k = stated_or(s->rain_temperature_k, r->air_temperature_k);
 }
 
-static void set_irradiance(weather_record *r, const site *place, double origin_s)
+static clear_sky_air air_of(const weather_record *r, double aerosol)
 {
+    return (clear_sky_air){
+        .pressure_pa = r->pressure_pa,
+        .water_cm =
+            precipitable_water_cm(weather_saturation_pa(r->dew_point_k), r->air_temperature_k),
+        .aerosol = aerosol,
+    };
+}
+
+/* The sun when it is highest on the history's last day, to a minute. */
+static sun_position high_noon(const site *place, double midnight_s, double *out_time_h)
+{
+    sun_position best = sun_at(midnight_s, place->latitude_deg, place->longitude_deg);
+
+    *out_time_h = 0.0;
+    for (int minute = 1; minute < 1440; minute++) {
+        const sun_position sun =
+            sun_at(midnight_s + 60.0 * minute, place->latitude_deg, place->longitude_deg);
+        if (sun.zenith_rad >= best.zenith_rad) continue;
+        best = sun;
+        *out_time_h = minute / 60.0;
+    }
+    return best;
+}
+
+static double beam_transmission(const weather_record *r, double aerosol, sun_position sun)
+{
+    const clear_sky_air air = air_of(r, aerosol);
+    double direct_w_m2, diffuse_w_m2;
+
+    clear_sky_irradiance(&air, sun.zenith_rad, sun.distance_au, &direct_w_m2, &diffuse_w_m2);
+    return direct_w_m2 * sun.distance_au * sun.distance_au / (double)SOLAR_CONSTANT_W_M2;
+}
+
+/* The aerosol that gives the stated transmission at noon, by bisection. */
+static status find_aerosol(double *out, const weather_summary *s, const weather *w,
+                           const site *place)
+{
+    status rc = STATUS_OK;
+    const double day_h = weather_day_start_h(w), wanted = s->high_noon_transmission;
+    double time_h, low = 0.0, high = 10.0;
+
+    *out = CLEAR_SKY_AEROSOL;
+    if (isnan(wanted)) return STATUS_OK;
+    const sun_position sun = high_noon(place, weather_origin_s(w, place) + 3600.0 * day_h, &time_h);
+    const weather_record *noon = &w->record[lround((day_h + time_h) * 3600.0 / INTERVAL_S)];
+    NEED(sun.zenith_rad < 0.5 * M_PI, STATUS_ARGUMENT,
+         "weather: transmission at high noon: the sun does not rise on that day");
+    const double most = beam_transmission(noon, low, sun);
+    NEED(wanted <= most, STATUS_ARGUMENT,
+         "weather: transmission at high noon: expected at most %.3f, that of air without aerosol, "
+         "not "
+         "%.4g",
+         most, wanted);
+    for (int i = 0; i < 60; i++) {
+        const double middle = 0.5 * (low + high);
+        if (beam_transmission(noon, middle, sun) > wanted)
+            low = middle;
+        else
+            high = middle;
+    }
+    *out = 0.5 * (low + high);
+out:
+    return rc;
+}
+
+static void cover_sky(weather_record *r, double cos_zenith)
+{
+    const double level_w_m2 = r->direct_w_m2 * cos_zenith + r->diffuse_w_m2;
+    double beam = r->sky_exposure, level;
+
+    if (r->cloud_type == 0) {
+        r->direct_w_m2 *= beam;
+        return;
+    }
+    cloud_sky_shares(r->cloud_type, 1.0 - r->sky_exposure, cos_zenith, &beam, &level);
+    r->direct_w_m2 *= beam;
+    r->diffuse_w_m2 = fmax(0.0, level * level_w_m2 - r->direct_w_m2 * cos_zenith);
+}
+
+static void set_irradiance(weather_record *r, const weather_summary *s, double aerosol,
+                           const site *place, double origin_s)
+{
+    const double clock_h = fmod(r->time_h, 24.0);
+    const clear_sky_air air = air_of(r, aerosol);
     const sun_position sun =
         sun_at(origin_s + r->time_h * 3600.0, place->latitude_deg, place->longitude_deg);
-    const double water_cm =
-        precipitable_water_cm(weather_saturation_pa(r->dew_point_k), r->air_temperature_k);
 
-    clear_sky_irradiance(sun.zenith_rad, sun.distance_au, r->pressure_pa, water_cm, &r->direct_w_m2,
-                         &r->diffuse_w_m2);
-    r->direct_w_m2 *= r->sky_exposure;
+    if (sun.zenith_rad >= 0.5 * M_PI) return;
+    clear_sky_irradiance(&air, sun.zenith_rad, sun.distance_au, &r->direct_w_m2, &r->diffuse_w_m2);
+    cover_sky(r, cos(sun.zenith_rad));
+    if (clock_h < s->sunrise_h || clock_h > s->sunset_h) r->direct_w_m2 = 0.0;
 }
 
 status weather_synthesise(weather **out, const weather_summary *summary, const site *place)
@@ -142,17 +262,17 @@ status weather_synthesise(weather **out, const weather_summary *summary, const s
     status rc = STATUS_OK;
     weather *w = NULL;
     temperature_day day;
-    double origin_s;
+    double origin_s, aerosol;
 
     TRY(check_summary(summary));
     TRY(weather_allocate(&w, RECORDS, INTERVAL_S));
     for (size_t i = 0; i < w->count; i++) w->record[i].time_h = (double)i * INTERVAL_S / 3600.0;
     origin_s = weather_origin_s(w, place);
     TRY(find_day(&day, summary, place, origin_s + 3600.0 * weather_day_start_h(w)));
-    for (size_t i = 0; i < w->count; i++) {
-        set_air(&w->record[i], summary, &day);
-        set_irradiance(&w->record[i], place, origin_s);
-    }
+    for (size_t i = 0; i < w->count; i++) set_air(&w->record[i], summary, &day);
+    TRY(find_aerosol(&aerosol, summary, w, place));
+    for (size_t i = 0; i < w->count; i++)
+        set_irradiance(&w->record[i], summary, aerosol, place, origin_s);
     *out = w;
     w = NULL;
 out:

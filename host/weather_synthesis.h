@@ -14,18 +14,27 @@ typedef struct weather_summary {
     double pressure_pa;  /* at the site */
     double sky_exposure; /* 0..1 */
     int cloud_type;
+    double rain_m_s; /* all the time */
+    /* Not-a-number where not stated: */
+    double rain_temperature_k;     /* that of the air */
+    double sunrise_h, sunset_h;    /* local clock time; computed */
+    double high_noon_transmission; /* of the beam when the sun is highest; a clear sky's */
 } weather_summary;
 
-/* Returns a summary with pressure 1013.25 mbar, a clear sky, and not-a-number in what must be
- * stated. */
+/* Returns a summary with pressure 1013.25 mbar, a clear sky, no rain, and not-a-number in what must
+ * be stated and in what may be. */
 weather_summary weather_summary_default(void);
 
 /* Makes 193 records, 15 minutes apart, that end at the end of the day of the site's time, so that
  * hours 24 to 48 are that day.
  *   air temperature   cosine by day, exponential decay after sunset
- *   direct, diffuse   clear sky of Bird and Hulstrom (SERI/TR-642-761, 1981); direct times the sky
- *                     exposure (assumed: clouds are opaque and leave the diffuse light as it is)
- * Fails with STATUS_ARGUMENT where a value of the summary is out of its range. */
+ *   direct, diffuse   clear sky of Bird and Hulstrom (SERI/TR-642-761, 1981), with the aerosol that
+ *                     gives the stated transmission at noon; under clouds Shapiro's shares of it
+ *                     (cloud_sky.h), or the beam times the sky exposure where no cloud type is
+ *                     stated. Before a stated sunrise and after a stated sunset hills hide the beam
+ *                     (assumed)
+ * Warns where the sun is not up yet at a stated sunrise, or no more at a stated sunset. Fails with
+ * STATUS_ARGUMENT where a value of the summary is out of its range. */
 status weather_synthesise(weather **out, const weather_summary *summary, const site *place);
 
 #endif

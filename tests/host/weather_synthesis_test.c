@@ -139,26 +139,85 @@ static void the_sun_at_zenith_gives_what_the_equations_give(void **state)
     (void)state;
     double direct, diffuse;
 
-    clear_sky_irradiance(0, 1, 101325, 1.5, &direct, &diffuse);
+    const clear_sky_air air = {101325, 1.5, CLEAR_SKY_AEROSOL};
+    clear_sky_irradiance(&air, 0, 1, &direct, &diffuse);
 
     assert_near(direct, 952.756, 0.05); /* 1367 in single precision, six digits */
     assert_near(diffuse, 123.926, 0.05);
 }
 
-static void clouds_take_the_beam_in_proportion(void **state)
+static void a_cover_of_no_stated_type_takes_the_beam_in_proportion(void **state)
 {
     (void)state;
     weather_summary summary = clear_june();
     weather *clear = synthesise(summary, rochester);
     summary.sky_exposure = 0.25;
-    summary.cloud_type = 5;
-    weather *cloudy = synthesise(summary, rochester);
+    weather *covered = synthesise(summary, rochester);
 
-    assert_near(at(cloudy, 37)->direct_w_m2, 0.25 * at(clear, 37)->direct_w_m2, 1e-9);
-    assert_near(at(cloudy, 37)->diffuse_w_m2, at(clear, 37)->diffuse_w_m2, 1e-9);
-    assert_int_equal(at(cloudy, 37)->cloud_type, 5);
+    assert_near(at(covered, 37)->direct_w_m2, 0.25 * at(clear, 37)->direct_w_m2, 1e-9);
+    assert_near(at(covered, 37)->diffuse_w_m2, at(clear, 37)->diffuse_w_m2, 1e-9);
     weather_free(clear);
-    weather_free(cloudy);
+    weather_free(covered);
+}
+
+static void a_cloud_type_without_cover_changes_nothing(void **state)
+{
+    (void)state;
+    weather_summary summary = clear_june();
+    weather *clear = synthesise(summary, rochester);
+    summary.cloud_type = 4;
+    weather *typed = synthesise(summary, rochester);
+
+    for (size_t i = 0; i < clear->count; i++) {
+        assert_near(typed->record[i].direct_w_m2, clear->record[i].direct_w_m2, 1e-9);
+        assert_near(typed->record[i].diffuse_w_m2, clear->record[i].diffuse_w_m2, 1e-9);
+    }
+    weather_free(clear);
+    weather_free(typed);
+}
+
+/* Noon at 77.667 W, 4 h behind UTC, on 23 June: 13:12:40 by the almanac's equation of time, -2 min. */
+static void the_beam_has_the_stated_transmission_at_high_noon(void **state)
+{
+    (void)state;
+    weather_summary summary = clear_june();
+    summary.high_noon_transmission = 0.6;
+    weather *w = synthesise(summary, rochester);
+    const double distance_au = 1.0163; /* of 23 June */
+
+    assert_near(at(w, 37.25)->direct_w_m2, 0.6 * 1367 / (distance_au * distance_au), 1.0);
+    assert_true(at(w, 37.25)->diffuse_w_m2 > 150); /* what the beam loses is scattered in part */
+    weather_free(w);
+}
+
+static void the_beam_is_hidden_before_the_stated_sunrise_and_after_sunset(void **state)
+{
+    (void)state;
+    weather_summary summary = clear_june();
+    summary.sunrise_h = 7.0;
+    summary.sunset_h = 19.5;
+    weather *w = synthesise(summary, rochester);
+
+    assert_near(at(w, 30.75)->direct_w_m2, 0, 0);
+    assert_true(at(w, 30.75)->diffuse_w_m2 > 10);
+    assert_true(at(w, 31)->direct_w_m2 > 100);
+    assert_true(at(w, 43.5)->direct_w_m2 > 100);
+    assert_near(at(w, 43.75)->direct_w_m2, 0, 0);
+    assert_near(at(w, 31)->air_temperature_k, 9 + KELVIN, 1e-3); /* the fit's rounding */
+    weather_free(w);
+}
+
+static void rain_falls_at_the_air_s_temperature_unless_stated(void **state)
+{
+    (void)state;
+    weather_summary summary = clear_june();
+    summary.rain_m_s = 1e-6;
+    weather *w = synthesise(summary, rochester);
+
+    assert_int_equal(at(w, 30)->precipitation_type, 1);
+    assert_near(at(w, 30)->precipitation_m_s, 1e-6, 0);
+    assert_near(at(w, 30)->precipitation_temperature_k, at(w, 30)->air_temperature_k, 0);
+    weather_free(w);
 }
 
 static void the_polar_day_has_a_history_too(void **state)
@@ -193,6 +252,16 @@ static void wrong_numbers_are_refused(void **state)
     summary = clear_june();
     summary.peak_time_h = 3;
     assert_summary_refused(summary, "expected between sunrise at 5.6");
+    summary = clear_june();
+    summary.high_noon_transmission = 0.95;
+    assert_summary_refused(summary, "transmission at high noon: expected at most 0.7");
+    summary = clear_june();
+    summary.sunrise_h = 16;
+    assert_summary_refused(summary, "expected between sunrise at 16.00 h");
+    summary = clear_june();
+    summary.sunrise_h = 8;
+    summary.sunset_h = 6;
+    assert_summary_refused(summary, "time of sunset in h: expected 8 to 24, not 6");
     assert_summary_refused(weather_summary_default(), "not nan");
 }
 
@@ -207,7 +276,11 @@ int main(void)
         cmocka_unit_test(a_june_noon_has_the_known_clear_sky_irradiance),
         cmocka_unit_test(there_is_light_when_the_sun_is_up_and_never_more_than_arrives),
         cmocka_unit_test(the_sun_at_zenith_gives_what_the_equations_give),
-        cmocka_unit_test(clouds_take_the_beam_in_proportion),
+        cmocka_unit_test(a_cover_of_no_stated_type_takes_the_beam_in_proportion),
+        cmocka_unit_test(a_cloud_type_without_cover_changes_nothing),
+        cmocka_unit_test(the_beam_has_the_stated_transmission_at_high_noon),
+        cmocka_unit_test(the_beam_is_hidden_before_the_stated_sunrise_and_after_sunset),
+        cmocka_unit_test(rain_falls_at_the_air_s_temperature_unless_stated),
         cmocka_unit_test(the_polar_day_has_a_history_too),
         cmocka_unit_test(wrong_numbers_are_refused),
     };
