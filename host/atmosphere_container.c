@@ -1,5 +1,6 @@
 #include "atmosphere_container.h"
 
+#include "../kernels/records.h"
 #include "output_file.h"
 
 #include <errno.h>
@@ -216,6 +217,26 @@ out:
     return rc;
 }
 
+/* Whether the grids of targets fit what renders hold, and lie between ground and sensor. */
+static status check_targets(const atmosphere *a, const char *path)
+{
+    status rc = STATUS_OK;
+    const int most = (int)AIR_STEPS - 2, last = a->target_count - 1;
+
+    NEED(a->target_count <= most && a->range_count <= most, STATUS_FORMAT,
+         "%s: target_count is %d and range_count %d, expected %d or fewer", path, a->target_count,
+         a->range_count, most);
+    NEED(last < 0 || (a->target_altitude_m[0] > a->level_altitude_m[0] &&
+                      a->target_altitude_m[last] < a->sensor_altitude_m),
+         STATUS_FORMAT, "%s: target_altitude_m is %g to %g m, expected between ground and sensor",
+         path, last < 0 ? 0.0 : a->target_altitude_m[0],
+         last < 0 ? 0.0 : a->target_altitude_m[last]);
+    NEED(a->range_count == 0 || a->range_m[0] > 0.0, STATUS_FORMAT,
+         "%s: range_m begins at %g, expected above 0", path, a->range_count ? a->range_m[0] : 0.0);
+out:
+    return rc;
+}
+
 static status check_rises(const double *values, int count, const char *name, const char *path)
 {
     for (int i = 1; i < count; i++)
@@ -242,6 +263,7 @@ status atmosphere_container_read(atmosphere **out, const char *path)
     TRY(check_rises(a->level_altitude_m, a->level_count, "level_altitude_m", path));
     TRY(check_rises(a->target_altitude_m, a->target_count, "target_altitude_m", path));
     TRY(check_rises(a->range_m, a->range_count, "range_m", path));
+    TRY(check_targets(a, path));
     *out = a;
     a = NULL;
 out:

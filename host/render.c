@@ -91,6 +91,7 @@ static void set_frame(render *r)
         .zenith_step_deg = (float)air->zenith_step_deg,
         .azimuth_step_deg = (float)air->azimuth_step_deg,
     };
+    r->shared.air = spectra_air(air, s->shape->origin_m[2]);
 }
 
 static status open_incident(render *r)
@@ -121,6 +122,7 @@ void render_change_look(render *r, const render_look *look)
     sun_direction(sun, direction);
     for (int i = 0; i < 3; i++) r->shared.frame.sun[i] = (float)direction[i];
     r->shared.camera = view_camera(&look->camera, s->shape->origin_m);
+    r->shared.air.is_level = r->shared.camera.position[2] < s->shape->high[2];
     r->shared.frame.columns = (uint32_t)look->camera.columns;
     r->shared.frame.thesis = s->thesis || look->is_coarse;
     r->shared.is_coarse = look->is_coarse;

@@ -148,7 +148,7 @@ static status colour(const render_tile_memory *t, const render_shared *r, bool w
         };
         TRY(incident_run(r->around, &pixels, t->incident));
     }
-    TRY(device_run(r->dev, "radiometry", shape1(t->count), ARG(frame), ARG(r->camera),
+    TRY(device_run(r->dev, "radiometry", shape1(t->count), ARG(frame), ARG(r->air), ARG(r->camera),
                    ARG(r->tables.facets), ARG(r->tables.materials), ARG(t->temperature_k),
                    ARG(t->points.hit), ARG(t->background), ARG(t->lit), ARG(t->background_lit),
                    ARG(r->tables.spectrum_rows), ARG(r->tables.emissivity_rows), ARG(t->incident),

@@ -20,6 +20,7 @@ typedef struct render_shared {
     render_tables tables;
     incident *around; /* NULL: thesis mode */
     radiometry_record frame;
+    air_record air;
     camera_record camera;
 } render_shared;
 

@@ -5,11 +5,30 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define SMALLEST_TRANSMISSION 1e-30 /* has a logarithm, and is none */
+
 enum { PAD = 16 };
 
 static uint32_t padded(int count)
 {
     return ((uint32_t)count + PAD - 1) / PAD * PAD;
+}
+
+/* Altitudes and ranges of the air, with those that need no table: ground and sensor, and range 0. */
+static uint32_t altitudes_of(const atmosphere *air)
+{
+    return air->target_count ? (uint32_t)air->target_count + 2u : 0u;
+}
+
+static uint32_t ranges_of(const atmosphere *air)
+{
+    return air->range_count ? (uint32_t)air->range_count + 1u : 0u;
+}
+
+static uint32_t air_first_row(const atmosphere *air)
+{
+    return SPECTRA_PATHS + 2u * (uint32_t)air->path_count +
+           (uint32_t)air->zenith_count * (uint32_t)air->azimuth_count;
 }
 
 static status allocate(spectra *s, uint32_t band_count, uint32_t sample_count,
@@ -19,8 +38,8 @@ static status allocate(spectra *s, uint32_t band_count, uint32_t sample_count,
 
     s->band_count = band_count;
     s->sample_count = sample_count;
-    s->row_count = SPECTRA_PATHS + 2u * (uint32_t)air->path_count +
-                   (uint32_t)air->zenith_count * (uint32_t)air->azimuth_count;
+    s->row_count =
+        air_first_row(air) + 2u * (altitudes_of(air) * (uint32_t)air->path_count + ranges_of(air));
     s->wavenumber_cm1 = calloc(sample_count, sizeof(double));
     s->bands = calloc(band_count, sizeof *s->bands);
     s->centre_um = calloc(band_count, sizeof(double));
@@ -47,6 +66,46 @@ static void fill_row(spectra *s, uint32_t index, const atmosphere *air, const do
     }
 }
 
+static void fill_depth(spectra *s, uint32_t index, const atmosphere *air, const double *tau)
+{
+    for (uint32_t i = 0; i < s->sample_count; i++)
+        row(s, index)[i] =
+            (float)-log(fmax(band_look_up(air, tau, s->wavenumber_cm1[i]), SMALLEST_TRANSMISSION));
+}
+
+/* Rows of the ground and of the targets; the sensor's stay 0. */
+static void fill_altitudes(spectra *s, const atmosphere *air)
+{
+    const uint32_t paths = (uint32_t)air->path_count, first = air_first_row(air);
+    const uint32_t count = altitudes_of(air);
+    const size_t n = (size_t)air->point_count;
+
+    for (uint32_t i = 0; i + 1 < count; i++)
+        for (uint32_t p = 0; p < paths; p++) {
+            const size_t from = ((i > 0 ? i - 1 : 0) * paths + p) * n;
+            const uint32_t to = first + i * paths + p;
+            fill_depth(s, to, air, (i > 0 ? air->target_tau : air->tau2) + from);
+            fill_row(s, to + count * paths, air,
+                     (i > 0 ? air->target_emitted : air->path_emitted) + from,
+                     (i > 0 ? air->target_scattered : air->path_scattered) + from);
+        }
+}
+
+/* Rows of the level paths, those of range 0 stay 0. What is transmitted never grows with range. */
+static void fill_ranges(spectra *s, const atmosphere *air)
+{
+    const uint32_t count = ranges_of(air);
+    const uint32_t first = air_first_row(air) + 2u * altitudes_of(air) * (uint32_t)air->path_count;
+
+    for (uint32_t i = 1; i < count; i++) {
+        const size_t from = (i - 1) * (size_t)air->point_count;
+        fill_depth(s, first + i, air, air->range_tau + from);
+        for (uint32_t k = 0; k < s->sample_count; k++)
+            row(s, first + i)[k] = fmaxf(row(s, first + i)[k], row(s, first + i - 1)[k]);
+        fill_row(s, first + count + i, air, air->range_emitted + from, air->range_scattered + from);
+    }
+}
+
 static void fill_rows(spectra *s, const atmosphere *air, bool thesis)
 {
     const uint32_t paths = (uint32_t)air->path_count;
@@ -70,6 +129,8 @@ static void fill_rows(spectra *s, const atmosphere *air, bool thesis)
     for (uint32_t d = 0; d < directions; d++)
         fill_row(s, SPECTRA_PATHS + 2 * paths + d, air, air->sky_emitted_direction + d * n,
                  air->sky_scattered_direction + d * n);
+    fill_altitudes(s, air);
+    fill_ranges(s, air);
 }
 
 static void place_band(spectra *s, uint32_t index, const band *b, const band_samples *samples,
@@ -135,6 +196,23 @@ void spectra_free(spectra *s)
     free(s->width_um);
     free(s->rows);
     free(s);
+}
+
+air_record spectra_air(const atmosphere *air, double origin_z_m)
+{
+    const double ground_m = air->level_count ? air->level_altitude_m[0] : 0.0;
+    air_record out = {.first_row = air_first_row(air),
+                      .altitude_count = altitudes_of(air),
+                      .range_count = ranges_of(air),
+                      .ground_z_m = (float)-origin_z_m};
+
+    out.altitude_z_m[0] = out.ground_z_m;
+    for (int i = 0; i < air->target_count; i++)
+        out.altitude_z_m[i + 1] = (float)(air->target_altitude_m[i] - ground_m - origin_z_m);
+    out.altitude_z_m[air->target_count + 1] =
+        (float)(air->sensor_altitude_m - ground_m - origin_z_m);
+    for (int i = 0; i < air->range_count; i++) out.range_m[i + 1] = (float)air->range_m[i];
+    return out;
 }
 
 void spectra_sample_emissivity(const spectra *s, const emissivity *table, float *out)

@@ -25,6 +25,11 @@ status spectra_build(spectra **out, const band *bands, uint32_t band_count, cons
                      bool by_points, bool thesis);
 void spectra_free(spectra *s);
 
+/* Tells where in the rows the paths from several altitudes and along the ground stand.
+ *   origin_z_m   the geometry's origin above z 0, which is where the database's levels begin
+ * Whether the sensor looks along the ground is left open. */
+air_record spectra_air(const atmosphere *air, double origin_z_m);
+
 /* Samples an emissivity table, linear in wavenumber.
  *   out   shape (EMISSIVITY_ANGLES, sample_count) */
 void spectra_sample_emissivity(const spectra *s, const emissivity *table, float *out);

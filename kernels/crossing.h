@@ -10,9 +10,6 @@
 #include "crossing_world.h"
 #include "ray.h"
 
-/* assumed: what absorbs in the air falls off by e in this height. */
-#define CROSSING_AIR_HEIGHT_M 2000.0f
-
 /* Length inside each material, and the integral of the range over it. */
 typedef struct crossing_sum {
     float length[TRANSMISSION_MEDIA], moment[TRANSMISSION_MEDIA];
@@ -144,16 +141,6 @@ static inline float crossing_air_k(global const float *level, const uint count,
     return level[2 * i + 1] + share * (level[2 * i + 3] - level[2 * i + 1]);
 }
 
-/* The share of the air up to `limit` that lies before `range`, by the column that is left above. */
-static inline float crossing_air_share(const ray *r, const float range)
-{
-    const float up = r->direction[2] / CROSSING_AIR_HEIGHT_M;
-    const float all = 1.0f - exp(-up * r->limit), before = 1.0f - exp(-up * range);
-
-    if (!(r->limit < MAXFLOAT)) return 0.0f;
-    return fabs(up * r->limit) < 1e-3f ? range / r->limit : before / all;
-}
-
 /* The bodies on a ray's way up to its limit. Its direction is unit. */
 static inline transmission_path crossing_path(const crossing_world *bodies,
                                               global const bvh_node *nodes,
@@ -162,7 +149,7 @@ static inline transmission_path crossing_path(const crossing_world *bodies,
                                               const ray *r)
 {
     transmission_path path = {{0.0f}, {0.0f}, {0.0f}, {0}};
-    float middle[TRANSMISSION_MEDIA], start;
+    float start;
     const crossing_sum sum = crossing_along(bodies, nodes, blocks, medium, r, &start);
     uint count = 0;
 
@@ -170,22 +157,22 @@ static inline transmission_path crossing_path(const crossing_world *bodies,
         uint place = count;
         if (!(sum.length[m] > 0.0f)) continue;
         const float at = fmax(fmin(start + sum.moment[m] / sum.length[m], r->limit), start);
-        for (; place > 0 && middle[place - 1] > at; place--) {
-            middle[place] = middle[place - 1];
+        for (; place > 0 && path.middle_m[place - 1] > at; place--) {
+            path.middle_m[place] = path.middle_m[place - 1];
             path.length_m[place] = path.length_m[place - 1];
             path.medium[place] = path.medium[place - 1];
         }
-        middle[place] = at;
+        path.middle_m[place] = at;
         path.length_m[place] = sum.length[m];
         path.medium[place] = m;
         count++;
     }
     for (uint i = 0; i < count; i++) {
-        const float altitude_m = bodies->altitude_m + r->origin[2] + middle[i] * r->direction[2];
+        const float altitude_m =
+            bodies->altitude_m + r->origin[2] + path.middle_m[i] * r->direction[2];
         const float stated_k = bodies->stated_k[path.medium[i]];
         path.temperature_k[i] =
             stated_k > 0.0f ? stated_k : crossing_air_k(level, bodies->level_count, altitude_m);
-        path.air_share[i] = crossing_air_share(r, middle[i]);
     }
     return path;
 }

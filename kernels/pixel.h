@@ -2,6 +2,7 @@
 #ifndef PIXEL_H
 #define PIXEL_H
 
+#include "air_path.h"
 #include "camera.h"
 #include "sky.h"
 
@@ -17,7 +18,7 @@ typedef struct pixel_state {
     float sunlit, sun_cosine; /* tau1c, cos(theta_S) */
     float view_angle_deg;     /* theta: from the normal to the sensor */
     lookup emissivity;
-    lookup path;        /* on theta_E */
+    air_way way;        /* of the sensor's ray */
     float shape_factor; /* F */
     float background_temperature_k;
     float background_sunlit, background_sun_cosine; /* tau_SB, cos(theta_B) */
@@ -53,6 +54,21 @@ static inline void pixel_ray(camera_record camera, uint columns, uint pixel, flo
     camera_direction(camera, columns, pixel, out);
     length = sqrt(pixel_dot(out, out));
     for (int k = 0; k < 3; k++) out[k] /= length;
+}
+
+/* The ray of a pixel through the air.
+ *   range_m   of what it meets */
+static inline air_way pixel_air(radiometry_record frame, const air_record *air,
+                                camera_record camera, uint pixel, const float *ray, float range_m)
+{
+    air_way way = {air_kind(air, frame.thesis, ray[2]), 0.0f, ray[2], range_m, {0u, 0u, 0.0f}};
+    float origin[3];
+
+    camera_origin(camera, frame.columns, frame.first_pixel + pixel, origin);
+    way.z_m = origin[2];
+    way.zenith = lookup_regular(pixel_angle_deg(-ray[2]), frame.path_zenith_first_deg,
+                                frame.path_zenith_step_deg, frame.path_count);
+    return way;
 }
 
 /* Sets what a pixel sees of its background, if anything is there. */
@@ -91,8 +107,6 @@ static inline void pixel_set_target(pixel_state *state, radiometry_record frame,
     state->sun_cosine = pixel_dot(hit.normal, frame.sun);
     state->emissivity =
         lookup_emissivity(material, at_normal ? 0.0f : state->view_angle_deg, frame.thesis);
-    state->path = lookup_regular(pixel_angle_deg(-ray[2]), frame.path_zenith_first_deg,
-                                 frame.path_zenith_step_deg, frame.path_count);
     for (int k = 0; k < 3; k++) bounce[k] = ray[k] + 2.0f * cosine * hit.normal[k];
     state->sky = sky_find(frame, bounce[0], bounce[1], bounce[2]);
 }

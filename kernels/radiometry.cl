@@ -49,29 +49,32 @@ static spectrum see_through(spectrum radiance, spectra_tables tables, radiometry
 }
 
 /* Puts the bodies on the sensor's way into its transmission and radiance. As printed (eq. 2.4-1) all
- * of the air's radiance stands before them; exact mode has them where they are in the air. */
-static void put_bodies(spectra_tables tables, radiometry_record frame, uint block, spectrum *tau2,
-                       spectrum *path)
+ * of the air's radiance stands before them; exact mode has them where they are in the air. Before
+ * the sky, which is all path, nothing else stands in thesis mode. */
+static void put_bodies(const pixel_state *pixel, spectra_tables tables, radiometry_record frame,
+                       const air_record *air, uint block, air_terms *terms)
 {
     const transmission_path bodies = load_path(tables, frame, TRANSMISSION_CAMERA);
     const spectrum first = load_row(tables, frame, SPECTRA_PLANCK_FIRST, block);
     const spectrum second = load_row(tables, frame, SPECTRA_PLANCK_SECOND, block);
-    spectrum through = (spectrum)1.0f, sum = (spectrum)0.0f, before = (spectrum)0.0f;
+    const spectrum nothing = (spectrum)0.0f;
+    spectrum through = (spectrum)1.0f, sum = nothing, before = nothing;
 
     for (uint i = 0; i < TRANSMISSION_MEDIA && bodies.length_m[i] > 0.0f; i++) {
         const spectrum own =
             transmission_part(tables.extinction, frame.sample_count, &bodies, i, block);
-        const float share = frame.thesis ? 0.0f : bodies.air_share[i];
-        const spectrum air = frame.thesis ? (spectrum)1.0f : pow(*tau2, (spectrum)share);
-        const spectrum upto = frame.thesis ? *path : transmission_air(*path, *tau2, air, share);
-        sum +=
-            through * (upto - before) +
-            through * air * (1.0f - own) * planck_radiance(first, second, bodies.temperature_k[i]);
-        before = upto;
+        air_terms upto = {(spectrum)1.0f,
+                          pixel->interaction == INTERACTION_MISSED ? nothing : terms->radiance};
+        if (!frame.thesis)
+            upto = air_upto(tables.rows, frame, air, pixel->way, bodies.middle_m[i], block);
+        sum += through * (upto.radiance - before) +
+               through * upto.transmission * (1.0f - own) *
+                   planck_radiance(first, second, bodies.temperature_k[i]);
+        before = upto.radiance;
         through *= own;
     }
-    *path = sum + through * (*path - before);
-    *tau2 *= through;
+    terms->radiance = sum + through * (terms->radiance - before);
+    terms->transmission *= through;
 }
 
 /* What reaches a surface from above, each still to be multiplied by (1 - e): the sky by its share,
@@ -137,7 +140,7 @@ typedef struct band_sums {
 
 /* Adds one block of samples of a pixel that met a target. */
 static void add_target(band_sums *sums, const pixel_state *pixel, spectra_tables tables,
-                       radiometry_record frame, uint block, spectrum weight)
+                       radiometry_record frame, const air_record *air, uint block, spectrum weight)
 {
     const uint row = frame.sample_count;
     const spectrum black_body = planck_radiance(
@@ -146,14 +149,12 @@ static void add_target(band_sums *sums, const pixel_state *pixel, spectra_tables
     const spectrum sun = sun_on_surface(load_sun(tables, frame, TRANSMISSION_SUN, block),
                                         pixel->sunlit, pixel->sun_cosine);
     const spectrum emissivity = lookup_spectrum(tables.emissivity, row, pixel->emissivity, block);
-    global const float *paths = tables.rows + (size_t)SPECTRA_PATHS * row;
-    spectrum tau2 = lookup_spectrum(paths, row, pixel->path, block);
-    spectrum path =
-        lookup_spectrum(paths + (size_t)frame.path_count * row, row, pixel->path, block);
+    air_terms terms = air_upto(tables.rows, frame, air, pixel->way, pixel->way.limit_m, block);
     spectrum behind = (spectrum)0.0f;
     const from_above above = look_above(pixel, tables, frame, block, &behind);
 
-    if (tables.extinction) put_bodies(tables, frame, block, &tau2, &path);
+    if (tables.extinction) put_bodies(pixel, tables, frame, air, block, &terms);
+    const spectrum tau2 = terms.transmission, path = terms.radiance;
     const spectrum radiance = sensor_radiance(
         surface_radiance(emissivity, black_body, sun, above.sky + above.background), tau2, path);
     sums->radiance += weight * radiance;
@@ -173,22 +174,22 @@ static void add_target(band_sums *sums, const pixel_state *pixel, spectra_tables
 
 /* The same where nothing was met: the sky of the ray's direction, all of it path. */
 static void add_sky(band_sums *sums, const pixel_state *pixel, spectra_tables tables,
-                    radiometry_record frame, uint block, spectrum weight)
+                    radiometry_record frame, const air_record *air, uint block, spectrum weight)
 {
     const spectrum none = (spectrum)0.0f;
-    const spectrum radiance =
-        see_through(sky_radiance(sky_rows(tables, frame), frame, pixel->sky, block), tables, frame,
-                    TRANSMISSION_CAMERA, block);
-    const spectrum part[RADIANCE_PARTS] = {none, none, none, none, radiance, none};
+    air_terms sky = {(spectrum)1.0f,
+                     sky_radiance(sky_rows(tables, frame), frame, pixel->sky, block)};
 
-    sums->radiance += weight * radiance;
-    sums->part[4] += weight * radiance;
-    store_terms(tables, frame, block, part, radiance);
+    if (tables.extinction) put_bodies(pixel, tables, frame, air, block, &sky);
+    const spectrum part[RADIANCE_PARTS] = {none, none, none, none, sky.radiance, none};
+    sums->radiance += weight * sky.radiance;
+    sums->part[4] += weight * sky.radiance;
+    store_terms(tables, frame, block, part, sky.radiance);
 }
 
 /* Sums of a band. */
 static band_sums sum_band(const pixel_state *pixel, spectra_tables tables, radiometry_record frame,
-                          band_record band)
+                          const air_record *air, band_record band)
 {
     band_sums sums;
 
@@ -198,22 +199,24 @@ static band_sums sum_band(const pixel_state *pixel, spectra_tables tables, radio
         const uint block = band.first_sample / SPECTRUM_WIDTH + k;
         const spectrum weight = load_row(tables, frame, SPECTRA_WEIGHT, block);
         if (pixel->interaction == INTERACTION_MISSED)
-            add_sky(&sums, pixel, tables, frame, block, weight);
+            add_sky(&sums, pixel, tables, frame, air, block, weight);
         else
-            add_target(&sums, pixel, tables, frame, block, weight);
+            add_target(&sums, pixel, tables, frame, air, block, weight);
     }
     return sums;
 }
 
-static pixel_state pixel_look(radiometry_record frame, camera_record camera, uint pixel,
-                              hit_record hit, background_record background, float sunlit,
-                              float background_sunlit, global const facet_record *facets,
+static pixel_state pixel_look(radiometry_record frame, const air_record *air, camera_record camera,
+                              uint pixel, hit_record hit, background_record background,
+                              float sunlit, float background_sunlit,
+                              global const facet_record *facets,
                               global const material_record *materials, float temperature_k)
 {
     pixel_state state = {0};
     float ray[3];
 
     pixel_ray(camera, frame.columns, frame.first_pixel + pixel, ray);
+    state.way = pixel_air(frame, air, camera, pixel, ray, hit.range_m);
     if (hit.facet == RECORD_NONE) {
         state.sky = sky_find(frame, ray[0], ray[1], ray[2]);
         return state;
@@ -246,15 +249,15 @@ static pixel_state pixel_look(radiometry_record frame, camera_record camera, uin
  *   counts, apparent temperature C, emissivity, background emissivity; NO_VALUE where there is none;
  *   where they are wanted, what the radiance is the sum of, at the sensor: emitted by the target,
  *   reflected of the sun, the sky and the background, path; and mean tau2 */
-kernel void radiometry(const radiometry_record frame, const camera_record camera,
-                       global const facet_record *facets, global const material_record *materials,
-                       global const float *temperature_k, global const hit_record *hit,
-                       global const background_record *background, global const float *sunlit,
-                       global const float *background_sunlit, global const float *spectra,
-                       global const float *emissivity, global const float *incident,
-                       global const float *extinction, global const transmission_path *bodies,
-                       global const band_record *bands, global const float *ln_radiance,
-                       global float *terms, global float *planes)
+kernel void radiometry(const radiometry_record frame, const air_record air,
+                       const camera_record camera, global const facet_record *facets,
+                       global const material_record *materials, global const float *temperature_k,
+                       global const hit_record *hit, global const background_record *background,
+                       global const float *sunlit, global const float *background_sunlit,
+                       global const float *spectra, global const float *emissivity,
+                       global const float *incident, global const float *extinction,
+                       global const transmission_path *bodies, global const band_record *bands,
+                       global const float *ln_radiance, global float *terms, global float *planes)
 {
     const uint pixel = get_global_id(0);
     if (pixel >= frame.pixel_count) return;
@@ -267,11 +270,11 @@ kernel void radiometry(const radiometry_record frame, const camera_record camera
         bodies + pixel,
         terms ? terms + (size_t)pixel * SENSOR_TERMS * frame.sample_count : 0};
     const pixel_state state =
-        pixel_look(frame, camera, pixel, hit[pixel], background[pixel], sunlit[pixel],
+        pixel_look(frame, &air, camera, pixel, hit[pixel], background[pixel], sunlit[pixel],
                    background_sunlit[pixel], facets, materials, temperature_k[pixel]);
     for (uint b = 0; b < frame.band_count; b++) {
         const band_record band = bands[b];
-        const band_sums sums = sum_band(&state, tables, frame, band);
+        const band_sums sums = sum_band(&state, tables, frame, &air, band);
         const float radiance = spectrum_sum(sums.radiance);
         const float per_um = 1.0f / band.width_um, scale = band.is_mean ? per_um : 1.0f;
         const float apparent_k =

@@ -148,8 +148,25 @@ typedef struct radiometry_record {
 } radiometry_record;
 RECORD_SIZE(radiometry_record, 80);
 
+/* Paths through the air that end elsewhere than on the ground below the sensor. Rows of the spectra
+ * from `first_row` on: for every altitude path_count optical depths up to the sensor, the same of
+ * radiance; then for every range an optical depth, and the same of radiance. */
+#define AIR_STEPS 20u
+typedef struct air_record {
+    uint first_row;
+    uint altitude_count; /* 0: none; the first is the ground's, the last the sensor's */
+    uint range_count;    /* of level paths at the ground, 0: none; the first is 0 */
+    uint is_level;       /* 1: the sensor is below the scene's top */
+    float ground_z_m;
+    uint unused[3];
+    float altitude_z_m[AIR_STEPS]; /* ascend */
+    float range_m[AIR_STEPS];      /* ascend */
+} air_record;
+RECORD_SIZE(air_record, 192);
+
 /* Rows of the spectra, each of sample_count floats; behind them stand path_count rows of tau2,
- * path_count rows of path radiance, and zenith_count x azimuth_count rows of sky radiance. */
+ * path_count rows of path radiance, zenith_count x azimuth_count rows of sky radiance, and those of
+ * air_record. */
 #define SPECTRA_WEIGHT 0u        /* response x quadrature, um */
 #define SPECTRA_PLANCK_FIRST 1u  /* 2 h c^2 / l^5, W m-2 sr-1 um-1 */
 #define SPECTRA_PLANCK_SECOND 2u /* h c / (k l), K */

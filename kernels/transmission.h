@@ -13,8 +13,8 @@
 typedef struct transmission_path {
     float length_m[TRANSMISSION_MEDIA]; /* inside, of all bodies of the material; 0: no further */
     float temperature_k[TRANSMISSION_MEDIA];
-    float air_share[TRANSMISSION_MEDIA]; /* of the air between origin and end, what lies before */
-    uint medium[TRANSMISSION_MEDIA];     /* row of the extinction */
+    float middle_m[TRANSMISSION_MEDIA]; /* range of the middle of what is inside */
+    uint medium[TRANSMISSION_MEDIA];    /* row of the extinction */
 } transmission_path;
 RECORD_SIZE(transmission_path, 64);
 
@@ -48,18 +48,6 @@ static inline float transmission_broad_band(const float *extinction, const trans
     for (uint i = 0; i < TRANSMISSION_MEDIA; i++)
         depth += path->length_m[i] * extinction[path->medium[i]];
     return exp(-depth);
-}
-
-/* Radiance of the share of the air that has the transmission `of_the_share`, by that of the whole
- * way; the air's source counts as the same all along.
- *   path, transmission   of the whole way
- *   share                of what absorbs, 0..1, for air that is clear */
-static inline spectrum transmission_air(spectrum path, spectrum transmission, spectrum of_the_share,
-                                        float share)
-{
-    const spectrum absorbed = 1.0f - transmission;
-
-    return path * (absorbed > (spectrum)1e-5f ? (1.0f - of_the_share) / absorbed : (spectrum)share);
 }
 
 #ifdef __OPENCL_C_VERSION__

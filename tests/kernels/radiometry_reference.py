@@ -41,8 +41,14 @@ class Reference:
         self.emissivity_rows = case.emissivity.astype(np.float64)
         paths, first = f["path_count"], records.PATHS
         self.tau2, self.path = (self.rows[first + k * paths:][:paths] for k in (0, 1))
-        self.sky_table = self.rows[first + 2 * paths:].reshape(
+        first += 2 * paths
+        air = case.air[0]
+        self.sky_table = self.rows[first:air["first_row"]].reshape(
             f["zenith_count"], f["azimuth_count"], -1)
+        heights, ranges = int(air["altitude_count"]), int(air["range_count"])
+        rest = self.rows[air["first_row"]:]
+        self.altitude = rest[:2 * heights * paths].reshape(2, heights, paths, rest.shape[1])
+        self.range = rest[2 * heights * paths:].reshape(2, ranges, rest.shape[1])
 
     def emissivity(self, material, angle):
         rows = self.emissivity_rows[material["emissivity_first"]:][:material["emissivity_angles"]]
@@ -63,13 +69,13 @@ class Reference:
                     + (row + 0.5) * c["down"].astype(np.float64))
 
     def bodies(self, way, pixel):
-        """Transmission, temperature and share of the air before them, the nearest first."""
+        """Transmission, temperature and range of the middle, the nearest first."""
         if self.case.extinction is None:
             return []
         path = self.case.body_paths[way, pixel]
         beta = self.case.extinction.astype(np.float64)
         return [(np.exp(-beta[path["medium"][i]] * path["length_m"][i]),
-                 float(path["temperature_k"][i]), float(path["air_share"][i]))
+                 float(path["temperature_k"][i]), float(path["middle_m"][i]))
                 for i in range(4) if path["length_m"][i] > 0]
 
     def transmission(self, way, pixel):
@@ -80,21 +86,62 @@ class Reference:
             radiance = radiance * tau + (1 - tau) * planck(self.wavelength_um, kelvin)
         return radiance
 
-    def sensor_path(self, tau2, path, pixel):
-        """tau2 tau2c, and what air and bodies send. Exact mode has the bodies between shares of air
-        of one source: its radiance from there on is path (1 - tau2^rest) / (1 - tau2)."""
-        bodies = self.bodies(CAMERA, pixel)
-        through = tau2 * self.transmission(CAMERA, pixel)
-        if self.frame["thesis"]:
-            return through, path + self.seen_through(0.0, CAMERA, pixel)
-        radiance, behind = np.zeros_like(tau2), 1.0
-        for tau, kelvin, share in reversed(bodies):  # from the target to the sensor
-            air = tau2 ** (behind - share)
-            radiance = radiance * air + path / (1 - tau2) * (1 - air)
-            radiance = radiance * tau + (1 - tau) * planck(self.wavelength_um, kelvin)
-            behind = share
-        air = tau2**behind
-        return through, radiance * air + path / (1 - tau2) * (1 - air)
+    def air_kind(self, ray):
+        air = self.case.air[0]
+        if not self.frame["thesis"]:
+            if air["range_count"] and (air["is_level"] or abs(ray[2]) < np.sin(np.radians(10))):
+                return "range"
+            if air["altitude_count"] and ray[2] < 0:
+                return "altitude"
+        return "zenith"
+
+    def air(self, pixel, at_m):
+        """Transmission and radiance of the air between the sensor and a range on its ray."""
+        ray, limit = self.ray(pixel), float(self.case.hit["range_m"][pixel])
+        air, z = self.case.air[0], float(self.case.camera["position"][0, 2])
+        kind = self.air_kind(ray)
+        place = ((angle_deg(-ray[2]) - self.frame["path_zenith_first_deg"])
+                 / self.frame["path_zenith_step_deg"])
+        # What absorbs, by the column of an atmosphere that falls off by e every 2000 m.
+        column = lambda m: (1 - np.exp(-ray[2] * m / 2000)) * 2000 / ray[2]
+        if kind == "range":
+            level = column(at_m) * np.exp(-(z - air["ground_z_m"]) / 2000)
+            return self.segment(air["range_m"][:air["range_count"]], *self.range, level)
+        if kind == "altitude":
+            depth, radiance = (np.array([between(rows, place) for rows in table])
+                               for table in self.altitude)
+            known = air["altitude_z_m"][:air["altitude_count"]].astype(float)
+            return self.segment(known, depth, radiance,
+                                np.clip(z + at_m * ray[2], known[0], known[-1]))
+        tau2, path = between(self.tau2, place), between(self.path, place)
+        if not at_m < limit:
+            return tau2, path
+        part = tau2 ** (column(at_m) / column(limit) if np.isfinite(limit) else 0.0)
+        return part, path * (1 - part) / (1 - tau2)
+
+    @staticmethod
+    def segment(known, depth, radiance, at):
+        """ln tau linear between known places (beyond the last goes on); the source of a step is
+        constant."""
+        i = min(max(int(np.searchsorted(known, at)) - 1, 0), len(known) - 2)
+        share = (at - float(known[i])) / (float(known[i + 1]) - float(known[i]))
+        tau = np.exp(-(depth[i] + share * (depth[i + 1] - depth[i])))
+        a, b = np.exp(-depth[i]), np.exp(-depth[i + 1])
+        return tau, radiance[i] + (radiance[i + 1] - radiance[i]) * (a - tau) / (a - b)
+
+    def sensor_path(self, whole, path, pixel):
+        """tau2 tau2c, and what air and bodies send. Thesis mode has the bodies behind the path of a
+        target, and nothing before the sky; exact mode has them where they are in the air."""
+        missed = self.case.hit["facet"][pixel] == NONE
+        radiance, ahead, behind = 0.0, 1.0, path
+        steps = []
+        for tau, kelvin, middle_m in self.bodies(CAMERA, pixel):
+            upto = (1.0, 0.0 if missed else path) if self.frame["thesis"] else self.air(pixel, middle_m)
+            steps.append((tau, planck(self.wavelength_um, kelvin), *upto))
+        for tau, black, air, upto in steps:
+            radiance = radiance + ahead * (upto - (path - behind)) + ahead * air * (1 - tau) * black
+            ahead, behind = ahead * tau, path - upto
+        return whole * ahead, radiance + ahead * behind
 
     def background(self, pixel):
         """e_B B(T_B) + E_S/pi tau1 tau_SB cos(theta_B) (1 - e_B), and e_B."""
@@ -113,7 +160,7 @@ class Reference:
         case, hit, b = self.case, self.case.hit[pixel], self.case.background[pixel]
         ray, share = self.ray(pixel), float(b["shape_factor"])
         if hit["facet"] == NONE:
-            sky = self.seen_through(self.sky(ray), CAMERA, pixel)
+            sky = self.sensor_path(1.0, self.sky(ray), pixel)[1]
             self.parts = [0, 0, 0, 0, sky, 0]
             return MISSED, sky, None, None
         material = case.materials[case.facets["material"][hit["facet"]]]
@@ -134,9 +181,7 @@ class Reference:
         above = share * sky, (1 - share) * behind
         if not self.frame["thesis"]:  # exact mode takes what incident.cl made
             above = case.incident[pixel].astype(np.float64)
-        zenith = (angle_deg(-ray[2]) - self.frame["path_zenith_first_deg"])
-        place = zenith / self.frame["path_zenith_step_deg"]
-        tau2, path = self.sensor_path(between(self.tau2, place), between(self.path, place), pixel)
+        tau2, path = self.sensor_path(*self.air(pixel, float(hit["range_m"])), pixel)
         self.parts = [
             tau2 * e * planck(self.wavelength_um, float(case.pixel_k[pixel])), tau2 * (1 - e) * sun,
             tau2 * (1 - e) * above[0], tau2 * (1 - e) * above[1], path, tau2]
@@ -168,15 +213,17 @@ class Reference:
 
 class Case:
     """Random pixels of every kind. Half of the materials are specular, half have 91 angles.
-    bodies: transmissive ones stand on the ways of most pixels."""
+    bodies: transmissive ones stand on the ways of most pixels.
+    air: "altitude", "range" or both: grids that the database has."""
 
-    def __init__(self, seed, count, thesis, bodies=False):
+    def __init__(self, seed, count, thesis, bodies=False, air=""):
         self.random = np.random.default_rng(seed)
         self.count = count
         self.set_bands()
         self.set_frame(thesis)
         self.set_materials()
         self.set_spectra()
+        self.set_air(air)
         self.set_pixels()
         self.extinction = self.body_paths = None
         if bodies:
@@ -240,6 +287,30 @@ class Case:
             uniform(0.3, 1, (f["path_count"], n)), uniform(0, 4, (f["path_count"], n)),
             sky.reshape(-1, n)]).astype(np.float32)
 
+    def set_air(self, grids):
+        """Depths grow towards the ground and with range; the last rows of altitudes are the sensor's."""
+        n, paths = len(self.weight), int(self.frame["path_count"][0])
+        uniform = np.random.default_rng(1).uniform  # the pixels are the same with and without
+        self.air = np.zeros(1, records.AIR)
+        self.air["first_row"], self.air["ground_z_m"] = len(self.spectra), -500
+        if "altitude" in grids:
+            self.air["altitude_count"] = 4
+            self.air["altitude_z_m"][0, :4] = -500, 0, 400, 1000
+            step = uniform(0.05, 0.4, (4, paths, n))
+            rows = [step[::-1].cumsum(0)[::-1] - step[-1], uniform(0, 4, (4, paths, n))]
+            rows[1][-1] = 0
+            self.add_rows(rows)
+        if "range" in grids:
+            self.air["range_count"] = 3
+            self.air["range_m"][0, :3] = 0, 300, 900
+            rows = [uniform(0.1, 0.5, (3, n)).cumsum(0), uniform(0, 4, (3, n))]
+            rows[0][0] = rows[1][0] = 0
+            self.add_rows(rows)
+
+    def add_rows(self, rows):
+        rows = np.float32(rows).reshape(-1, len(self.weight))
+        self.spectra = np.concatenate([self.spectra, rows])
+
     def set_pixels(self):
         n, random = self.count, self.random
         self.hit, self.background = np.zeros(n, records.HIT), np.zeros(n, records.BACKGROUND)
@@ -251,7 +322,8 @@ class Case:
         self.hit["point"] = self.camera["position"] + self.hit["range_m"][:, None] * ray
         specular = self.materials["specular_share"][self.facets["material"][self.hit["facet"]]] == 1
         alone = random.random(n) < 0.4
-        self.hit["facet"][random.random(n) < 0.15] = NONE
+        missed = random.random(n) < 0.15
+        self.hit["facet"][missed], self.hit["range_m"][missed] = NONE, np.inf
         b = self.background
         b["facet"] = np.where(alone, NONE, random.integers(0, len(self.facets), n))
         b["material"] = np.where(alone, NONE, random.integers(0, 6, n))
@@ -272,5 +344,6 @@ class Case:
         some = np.arange(4) < random.integers(0, 4, shape)[..., None]  # none to three of four
         self.body_paths["length_m"] = np.where(some, random.uniform(1, 300, (*shape, 4)), 0)
         self.body_paths["temperature_k"] = random.uniform(220, 300, (*shape, 4))
-        self.body_paths["air_share"] = np.sort(random.random((*shape, 4)))
+        at = np.sort(random.random((*shape, 4)))
+        self.body_paths["middle_m"] = at * np.fmin(self.hit["range_m"], 1500)[:, None]
         self.body_paths["medium"] = random.permuted(np.broadcast_to(np.arange(4), (*shape, 4)), axis=2)

@@ -37,7 +37,9 @@ CAMERA = record("position[3] corner[3] across[3] down[3] *first_column *first_ro
 RADIOMETRY = record("*columns *first_pixel *pixel_count *band_count *sample_count *thesis"
                     " *path_count path_zenith_first_deg path_zenith_step_deg *zenith_count"
                     " *azimuth_count zenith_step_deg azimuth_step_deg sun[3] *wants_parts *unused[3]")
-TRANSMISSION_PATH = record("length_m[4] temperature_k[4] air_share[4] *medium[4]")
+AIR = record("*first_row *altitude_count *range_count *is_level ground_z_m *unused[3] altitude_z_m[20]"
+             " range_m[20]")
+TRANSMISSION_PATH = record("length_m[4] temperature_k[4] middle_m[4] *medium[4]")
 BAND = record("*first_sample *sample_count gain offset width_um *is_mean *unused[2]")
 DETECTOR = record("*seed *frame *band *columns *count *last_count noise shot fixed_gain fixed_offset"
                   " periodic waves_across waves_down gain offset *unused")

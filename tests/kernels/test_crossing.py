@@ -163,14 +163,12 @@ def test_a_stated_temperature_goes_before_that_of_the_air(paths):
     assert found["temperature_k"][0] == 270
 
 
-def test_the_air_before_a_body_is_the_share_of_an_exponential_column(paths):
+def test_the_middle_of_a_body_is_told_by_its_range(paths):
     box = cases.box((-100, -100, 400), (100, 100, 600))
 
     found = paths(box, 0, (1, 2, 4000), (0, 0, -1), 4000)[0]
 
-    column = np.exp(-np.array([4000, 500, 0]) / 2000)
-    share = (column[0] - column[1]) / (column[0] - column[2])
-    assert found["air_share"][0] == pytest.approx(share, rel=1e-5)
+    assert found["middle_m"][0] == pytest.approx(3500, rel=1e-6)
 
 
 @pytest.mark.parametrize("z, direction", [(20, (0, 0, 1)), (20, (1, 0, 0)), (0, (0, 1, 0))])

@@ -36,13 +36,16 @@ def run(opencl, case, options=""):
               case.sunlit, case.background_sunlit, case.spectra, case.emissivity, case.incident,
               case.extinction, case.body_paths,
               case.bands, np.array(tables, np.float32), None]
-    arguments = [case.frame[0], case.camera[0], *(a if a is None else probe.copy(opencl, a) for a in arrays)]
+    arguments = [case.frame[0], case.air[0], case.camera[0], *(a if a is None else probe.copy(opencl, a) for a in arrays)]
     shape = (len(case.bands), records.BAND_PLANES, len(case.hit))
     return probe.launch(opencl, opencl.build("radiometry", options), len(case.hit), arguments, shape)
 
 
-@pytest.fixture(scope="module", params=[(0, False), (1, False), (0, True), (1, True)],
-                ids=["exact", "thesis", "exact with bodies", "thesis with bodies"])
+@pytest.fixture(scope="module", params=[
+    (0, False), (1, False), (0, True), (1, True), (0, True, "altitude"), (0, True, "range"),
+    (0, False, "altitude range"), (1, True, "altitude range")],
+    ids=["exact", "thesis", "exact with bodies", "thesis with bodies", "bodies among altitudes",
+         "bodies among ranges", "altitudes, and ranges near level", "thesis takes no grids"])
 def pixels(request):
     """Random pixels, what they are, and shape (pixels, bands, 3) of the reference's planes."""
     case = Case(4, COUNT, *request.param)
@@ -197,6 +200,7 @@ def black_plane(low_um, high_um, temperature_k):
     case.incident = np.full((1, 2, len(case.weight)), 7, np.float32)
     case.emissivity = np.ones((1, len(case.weight)), np.float32)
     flat = np.ones(len(case.weight))
+    case.air["first_row"] = 8
     case.spectra = np.array([
         case.weight, reference.FIRST / case.wavelength_um**5,
         reference.SECOND / case.wavelength_um, 9 * flat, 5 * flat, flat, 0 * flat, flat], np.float32)

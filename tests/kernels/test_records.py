@@ -12,7 +12,7 @@ TWINS = {
     "forcing_record": records.FORCING, "world_record": records.WORLD,
     "background_record": records.BACKGROUND, "camera_record": records.CAMERA,
     "radiometry_record": records.RADIOMETRY, "band_record": records.BAND,
-    "detector_record": records.DETECTOR, "blur_record": records.BLUR,
+    "detector_record": records.DETECTOR, "blur_record": records.BLUR, "air_record": records.AIR,
 }
 
 
