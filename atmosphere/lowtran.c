@@ -15,9 +15,16 @@
 
 enum { WORKER_LIMIT = 64 };
 
+typedef struct job {
+    const char *const *decks, *const *names;
+    size_t count, *same;
+    lowtran_taker take;
+    void *receiver;
+} job;
+
 typedef struct crew {
     char folder[1024];
-    int count;
+    int count, busy;
     lowtran_process *process[WORKER_LIMIT];
     size_t deck[WORKER_LIMIT]; /* that the process runs */
 } crew;
@@ -74,32 +81,69 @@ static int wait_for_one(const crew *c, int *out_status)
     return -1;
 }
 
+/* For each deck the first one that has its text. */
+static status find_same(size_t **out, const char *const *decks, size_t count)
+{
+    status rc = STATUS_OK;
+    size_t *same = malloc(count * sizeof *same);
+
+    NEED(same, STATUS_MEMORY, "%zu decks", count);
+    for (size_t i = 0; i < count; i++)
+        for (same[i] = 0; same[i] < i && strcmp(decks[same[i]], decks[i]) != 0;) same[i]++;
+    *out = same;
+out:
+    return rc;
+}
+
+/* Gives an idle worker the next deck that none before it equals, if there is one. */
+static status start_next(crew *c, int worker, const job *j, size_t *next)
+{
+    status rc = STATUS_OK;
+
+    while (*next < j->count && j->same[*next] != *next) ++*next;
+    if (*next == j->count) goto out;
+    c->deck[worker] = *next;
+    TRY(lowtran_process_start(c->process[worker], j->decks[*next]));
+    ++*next;
+    c->busy++;
+out:
+    return rc;
+}
+
+static status finish(crew *c, int worker, int wait_status, const job *j)
+{
+    status rc = STATUS_OK;
+    const size_t deck = c->deck[worker];
+    lowtran_run run;
+
+    c->busy--;
+    TRY(lowtran_process_finish(c->process[worker], wait_status, j->names[deck], &run));
+    for (size_t i = deck; i < j->count; i++)
+        if (j->same[i] == deck) TRY(j->take(j->receiver, i, &run));
+out:
+    return rc;
+}
+
 status lowtran_run_decks(const char *const *decks, const char *const *names, size_t count,
                          lowtran_taker take, void *receiver)
 {
     status rc = STATUS_OK;
     crew c = {0};
-    lowtran_run run;
-    size_t next = 0, ended = 0;
+    job j = {decks, names, count, NULL, take, receiver};
+    size_t next = 0;
     int wait_status;
 
+    TRY(find_same(&j.same, decks, count));
     TRY(crew_open(&c, count));
-    for (; next < (size_t)c.count; next++) {
-        c.deck[next] = next;
-        TRY(lowtran_process_start(c.process[next], decks[next]));
-    }
-    for (; ended < count; ended++) {
+    for (int worker = 0; worker < c.count; worker++) TRY(start_next(&c, worker, &j, &next));
+    while (c.busy > 0) {
         const int worker = wait_for_one(&c, &wait_status);
-        NEED(worker >= 0, STATUS_INTERRUPTED, "interrupted after %zu of %zu runs", ended, count);
-        const size_t deck = c.deck[worker];
-        TRY(lowtran_process_finish(c.process[worker], wait_status, names[deck], &run));
-        TRY(take(receiver, deck, &run));
-        if (next == count) continue;
-        c.deck[worker] = next;
-        TRY(lowtran_process_start(c.process[worker], decks[next]));
-        next++;
+        NEED(worker >= 0, STATUS_INTERRUPTED, "interrupted at run %zu of %zu", next, count);
+        TRY(finish(&c, worker, wait_status, &j));
+        TRY(start_next(&c, worker, &j, &next));
     }
 out:
     crew_free(&c);
+    free(j.same);
     return rc;
 }

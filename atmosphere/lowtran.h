@@ -3,11 +3,10 @@
 #ifndef LOWTRAN_H
 #define LOWTRAN_H
 
+#include "lowtran_sheet.h"
 #include "status.h"
 
 #include <stddef.h>
-
-enum { LOWTRAN_LEVELS = 34, LOWTRAN_POINTS = 12000 };
 
 /* What a deck asks for, as LOWTRAN echoes it, and what came out. Spectra ascend in wavenumber. */
 typedef struct lowtran_run {
@@ -16,7 +15,7 @@ typedef struct lowtran_run {
     double parm1, psipo_deg; /* 0 unless IEMSCT is 2 */
     double range_km;
     int level_count;
-    float altitude_km[LOWTRAN_LEVELS], pressure_mb[LOWTRAN_LEVELS], temperature_k[LOWTRAN_LEVELS];
+    float altitude_km[LOWTRAN_LEVELS], temperature_k[LOWTRAN_LEVELS];
     int point_count;
     const float *wavenumber_cm1;
     const float *tau;        /* transmission of the path */
@@ -28,7 +27,8 @@ typedef struct lowtran_run {
 /* Takes the result of deck number `index`; decks end in no fixed order. */
 typedef status (*lowtran_taker)(void *receiver, size_t index, const lowtran_run *run);
 
-/* Runs all decks, one process per deck, as many at a time as there are processors.
+/* Runs all decks, one process per deck, as many at a time as there are processors. Decks of the same
+ * text share one run.
  *   decks   shape (count), the text of each
  *   names   shape (count), for messages
  * Fails with STATUS_FORMAT where LOWTRAN refuses a deck: the message holds what it said. */

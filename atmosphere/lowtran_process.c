@@ -4,52 +4,28 @@
 #include <fcntl.h>
 #include <math.h>
 #include <signal.h>
+#include <spawn.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* The longest deck takes seconds; a processor that is shared by many takes its time. */
-enum { PATIENCE_S = 600, COLUMNS = 63, ECHO_LIMIT = 8 };
-
-/* Shared with the child. */
-typedef struct sheet {
-    int done, level_count, point_count;
-    float range_km;
-    float altitude_km[LOWTRAN_LEVELS], pressure_mb[LOWTRAN_LEVELS], temperature_k[LOWTRAN_LEVELS];
-    float wavenumber[LOWTRAN_POINTS], tau[LOWTRAN_POINTS], emitted[LOWTRAN_POINTS];
-    float irradiance[3][LOWTRAN_POINTS]; /* at the ground, outside, scattered path radiance */
-} sheet;
+enum { ECHO_LIMIT = 8 };
 
 struct lowtran_process {
     char *folder;
-    sheet *shared;
+    lowtran_sheet sheet;
     pid_t child;
 };
 
-/* lowtran7.f; the names of its arguments and common blocks are its own. */
-extern void lwtrn7_(const int *python, const int *nwl, const float *v1, const float *v2,
-                    const float *dv, float *tx, float *v, float *alam, float *trace, float *unif,
-                    float *suma, float *irrad, float *sumvv, const int *model, const int *itype,
-                    const int *iemsct, const int *im, const int *iseasn, const int *ml,
-                    const int *ird1, const float *zmdl, const float *p, const float *t,
-                    const float *wmol, const float *h1, const float *h2, const float *angle,
-                    const float *range);
-extern struct {
-    float h1, h2, angle, range, beta, re;
-    int len;
-} card3_;
-extern struct {
-    float zm[LOWTRAN_LEVELS], pm[LOWTRAN_LEVELS], tm[LOWTRAN_LEVELS];
-} model_;
-extern struct {
-    int kmax, m, ikmax, nl, ml, iklo, issgeo, imult;
-} cntrl_;
+extern char **environ;
 
-static const char *const files[] = {"TAPE5", "out/TAPE6", "out/TAPE7", "out/TAPE8", "said"};
+/* The deck comes first; what radsig-lowtran says lies in the last but one. */
+static const char *const files[] = {"TAPE5",     "out/TAPE6", "out/TAPE7",
+                                    "out/TAPE8", "said",      LOWTRAN_SHEET_FILE};
 
 static char *join(const char *folder, const char *name)
 {
@@ -91,10 +67,6 @@ status lowtran_process_open(lowtran_process **out, const char *folder, int numbe
     NEED(inner, STATUS_MEMORY, "a LOWTRAN process");
     NEED(mkdir(p->folder, 0700) == 0 && mkdir(inner, 0700) == 0, STATUS_FILE, "%s: %s", inner,
          strerror(errno));
-    p->shared =
-        mmap(NULL, sizeof *p->shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (p->shared == MAP_FAILED) p->shared = NULL;
-    NEED(p->shared, STATUS_MEMORY, "the spectra of a LOWTRAN process: %s", strerror(errno));
     *out = p;
     p = NULL;
 out:
@@ -123,44 +95,45 @@ void lowtran_process_free(lowtran_process *p)
         kill(p->child, SIGKILL);
         waitpid(p->child, NULL, 0);
     }
-    if (p->shared) munmap(p->shared, sizeof *p->shared);
     if (p->folder) remove_folder(p->folder);
     free(p->folder);
     free(p);
 }
 
-/* In the child: all that LOWTRAN reads is in the deck, so the other arguments are zero. */
-static void run_deck(sheet *to)
+/* Writes the path of radsig-lowtran, beside this program. */
+static status program_path(char *out, size_t size)
 {
-    const int no = 0, points = LOWTRAN_POINTS;
-    const float zero = 0.0f, empty[COLUMNS] = {0.0f};
-    float *tx = calloc((size_t)LOWTRAN_POINTS * COLUMNS, sizeof *tx);
-    float *rest = calloc((size_t)LOWTRAN_POINTS * 4, sizeof *rest);
+    status rc = STATUS_OK;
+    const ssize_t length = readlink("/proc/self/exe", out, size - sizeof "radsig-lowtran");
 
-    if (!tx || !rest) _exit(1);
-    lwtrn7_(&no, &points, &zero, &zero, &zero, tx, to->wavenumber, rest, rest + points,
-            rest + 2 * points, rest + 3 * points, to->irradiance[0], to->emitted, &no, &no, &no,
-            &no, &no, &no, &no, empty, empty, empty, empty, &zero, &zero, &zero, &zero);
-    memcpy(to->tau, tx, sizeof to->tau);
-    for (int i = 0; i < points; i++)
-        if (to->wavenumber[i] > 0.0f) to->point_count = i + 1;
-    to->range_km = card3_.range;
-    to->level_count = cntrl_.ml < LOWTRAN_LEVELS ? cntrl_.ml : LOWTRAN_LEVELS;
-    memcpy(to->altitude_km, model_.zm, sizeof to->altitude_km);
-    memcpy(to->pressure_mb, model_.pm, sizeof to->pressure_mb);
-    memcpy(to->temperature_k, model_.tm, sizeof to->temperature_k);
-    to->done = 1;
+    NEED(length > 0, STATUS_FILE, "/proc/self/exe: %s", strerror(errno));
+    out[length] = '\0';
+    strcpy(strrchr(out, '/') + 1, "radsig-lowtran");
+out:
+    return rc;
 }
 
-_Noreturn static void be_child(lowtran_process *p)
+/* Unlike fork() this does not copy what the libraries of this program have mapped. */
+static status spawn(lowtran_process *p)
 {
-    signal(SIGINT, SIG_DFL);
-    signal(SIGTERM, SIG_DFL);
-    alarm(PATIENCE_S);
-    const int said = chdir(p->folder) == 0 ? open("said", O_WRONLY | O_CREAT | O_TRUNC, 0600) : -1;
-    if (said < 0 || dup2(said, STDOUT_FILENO) < 0 || dup2(said, STDERR_FILENO) < 0) _exit(1);
-    run_deck(p->shared);
-    _exit(0);
+    status rc = STATUS_OK;
+    char program[4096];
+    char *const arguments[] = {program, p->folder, NULL};
+    char *said = join(p->folder, "said");
+    posix_spawn_file_actions_t actions;
+
+    posix_spawn_file_actions_init(&actions);
+    NEED(said, STATUS_MEMORY, "a LOWTRAN process");
+    TRY(program_path(program, sizeof program));
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, said, O_WRONLY | O_TRUNC, 0);
+    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    errno = posix_spawn(&p->child, program, &actions, NULL, arguments, environ);
+    if (errno) p->child = 0;
+    NEED(errno == 0, STATUS_FILE, "%s: %s (make atmosphere builds it)", program, strerror(errno));
+out:
+    posix_spawn_file_actions_destroy(&actions);
+    free(said);
+    return rc;
 }
 
 status lowtran_process_start(lowtran_process *p, const char *deck)
@@ -170,14 +143,7 @@ status lowtran_process_start(lowtran_process *p, const char *deck)
     for (size_t i = 1; i < sizeof files / sizeof *files; i++)
         TRY(write_file(p->folder, files[i], ""));
     TRY(write_file(p->folder, files[0], deck));
-    memset(p->shared, 0, sizeof *p->shared);
-    fflush(NULL);
-    p->child = fork();
-    if (p->child == 0) be_child(p);
-    if (p->child < 0) {
-        p->child = 0;
-        rc = status_set(STATUS_FILE, "a process for LOWTRAN: %s", strerror(errno));
-    }
+    TRY(spawn(p));
 out:
     return rc;
 }
@@ -218,6 +184,14 @@ static const char *find_complaint(char *text)
     return *error ? error : last;
 }
 
+/* A terminal interrupts the children too. */
+static bool was_interrupted(int wait_status)
+{
+    const int number = WIFSIGNALED(wait_status) ? WTERMSIG(wait_status) : 0;
+
+    return number == SIGINT || number == SIGTERM;
+}
+
 static status explain(const lowtran_process *p, int wait_status, const char *name)
 {
     char *said = read_text(p->folder, "said"), *tape6 = read_text(p->folder, "out/TAPE6");
@@ -227,7 +201,7 @@ static status explain(const lowtran_process *p, int wait_status, const char *nam
 
     if (WIFSIGNALED(wait_status))
         end = WTERMSIG(wait_status) == SIGALRM ? "took too long" : "crashed";
-    else if (!p->shared->done)
+    else if (wait_status != 0)
         end = "stopped";
     const status rc = status_set(STATUS_FORMAT,
                                  "%s: LOWTRAN %s: %s%s%s (expected a deck by the LOWTRAN 7 manual)",
@@ -272,19 +246,30 @@ static void read_cards(lowtran_run *out, const char *tape6)
     out->psipo_deg = values[5];
 }
 
-static void point_at(lowtran_run *out, const sheet *from)
+static void point_at(lowtran_run *out, const lowtran_sheet *from)
 {
     out->range_km = (double)from->range_km;
     out->level_count = from->level_count;
     memcpy(out->altitude_km, from->altitude_km, sizeof out->altitude_km);
-    memcpy(out->pressure_mb, from->pressure_mb, sizeof out->pressure_mb);
     memcpy(out->temperature_k, from->temperature_k, sizeof out->temperature_k);
     out->point_count = from->point_count;
-    out->wavenumber_cm1 = from->wavenumber;
+    out->wavenumber_cm1 = from->wavenumber_cm1;
     out->tau = from->tau;
     out->emitted = from->emitted;
     out->scattered = from->irradiance[2];
     out->irradiance = from->irradiance[1];
+}
+
+/* Returns false unless the process left a whole sheet with a spectrum. */
+static bool read_sheet(lowtran_process *p)
+{
+    char *path = join(p->folder, LOWTRAN_SHEET_FILE);
+    FILE *file = path ? fopen(path, "rb") : NULL;
+    const bool whole = file && fread(&p->sheet, sizeof p->sheet, 1, file) == 1;
+
+    if (file) fclose(file);
+    free(path);
+    return whole && p->sheet.point_count > 0;
 }
 
 status lowtran_process_finish(lowtran_process *p, int wait_status, const char *name,
@@ -292,14 +277,18 @@ status lowtran_process_finish(lowtran_process *p, int wait_status, const char *n
 {
     status rc = STATUS_OK;
     char *tape6 = NULL;
-    const sheet *s = p->shared;
+    const lowtran_sheet *s = &p->sheet;
 
     p->child = 0;
-    if (!s->done || s->point_count == 0) return explain(p, wait_status, name);
+    NEED(!was_interrupted(wait_status), STATUS_INTERRUPTED, "%s: interrupted", name);
+    if (wait_status != 0 || !read_sheet(p)) {
+        rc = explain(p, wait_status, name);
+        goto out;
+    }
     for (int i = 0; i < s->point_count; i++)
         NEED(isfinite(s->tau[i]) && isfinite(s->emitted[i]) && isfinite(s->irradiance[2][i]),
              STATUS_FORMAT, "%s: LOWTRAN gave no number at %g cm-1", name,
-             (double)s->wavenumber[i]);
+             (double)s->wavenumber_cm1[i]);
     tape6 = read_text(p->folder, "out/TAPE6");
     NEED(tape6, STATUS_MEMORY, "%s: the log of LOWTRAN", name);
     *out = (lowtran_run){0};

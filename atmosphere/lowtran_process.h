@@ -1,4 +1,4 @@
-/* LOWTRAN process: one deck in one child process, whose arrays come back by shared memory. The
+/* LOWTRAN process: one deck in one process of radsig-lowtran, which leaves its arrays in a file. The
  * Fortran keeps its state in static storage, so a process runs one deck and ends. */
 #ifndef LOWTRAN_PROCESS_H
 #define LOWTRAN_PROCESS_H
@@ -15,7 +15,7 @@ status lowtran_process_open(lowtran_process **out, const char *folder, int numbe
 /* Removes the folder; ends a run that goes on. */
 void lowtran_process_free(lowtran_process *p);
 
-/* Starts a deck. */
+/* Starts a deck. Fails with STATUS_FILE if radsig-lowtran does not lie beside this program. */
 status lowtran_process_start(lowtran_process *p, const char *deck);
 
 /* Id of the child process, 0 where none runs. */

@@ -38,6 +38,11 @@ static void set_air(const recipe_sight *r, card_deck *deck)
     deck->gndalt_km = card_value(plan->ground_altitude_m / KILOMETRE);
 }
 
+bool recipe_sight_is_night(const recipe_sight *r)
+{
+    return r->sun.zenith_rad >= M_PI / 2.0;
+}
+
 /* A path that leaves towards an azimuth. */
 static void set_scattering(const recipe_sight *r, card_deck *deck, double azimuth_deg)
 {
@@ -58,7 +63,9 @@ static void set_scattering(const recipe_sight *r, card_deck *deck, double azimut
         deck->psipo_deg = card_value(azimuth_deg);
     } else {
         deck->iparm = 2;
-        deck->parm[0] = card_value(wrap_deg(r->sun.azimuth_rad / DEGREE - azimuth_deg));
+        /* By night all azimuths are alike, and so are their decks. */
+        if (!recipe_sight_is_night(r))
+            deck->parm[0] = card_value(wrap_deg(r->sun.azimuth_rad / DEGREE - azimuth_deg));
         deck->parm[1] = card_value(r->sun.zenith_rad / DEGREE);
     }
 }
@@ -73,11 +80,6 @@ static card_deck start(const recipe_sight *r, double azimuth_deg)
     deck.iemsct = RADIANCE;
     deck.imult = 1;
     return deck;
-}
-
-bool recipe_sight_is_night(const recipe_sight *r)
-{
-    return r->sun.zenith_rad >= M_PI / 2.0;
 }
 
 card_deck recipe_deck_sun(const recipe_sight *r)

@@ -1,0 +1,66 @@
+"""How radsig-atmosphere runs LOWTRAN: beside it, interrupted, with nothing left behind."""
+
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import time
+
+import pytest
+
+BUILD = pathlib.Path(__file__).parents[2] / "build"
+VISIBLE = pathlib.Path(__file__).parents[2] / "scenes/atmosphere/june24_1500z_vis.toml"
+
+
+@pytest.fixture
+def moved(atmosphere, tmp_path):
+    """The two programs in another folder."""
+    folder = tmp_path / "a folder"
+    folder.mkdir()
+    for name in ("radsig-atmosphere", "radsig-lowtran"):
+        shutil.copy(BUILD / name, folder)
+    return folder
+
+
+def test_the_programs_work_in_any_folder(moved, tmp_path):
+    lwir = VISIBLE.with_name("june24_lwir.toml")
+    subprocess.run([moved / "radsig-atmosphere", "make", lwir, "-o", "x.radc"], cwd=tmp_path, check=True)
+
+    assert (tmp_path / "x.radc").read_bytes() == VISIBLE.with_name("june24_lwir_12.radc").read_bytes()
+
+
+def test_without_radsig_lowtran_it_tells_how_to_build_it(moved, tmp_path):
+    (moved / "radsig-lowtran").unlink()
+    done = subprocess.run([moved / "radsig-atmosphere", "cloud", "stratus", "-o", tmp_path / "x.ext"],
+                          capture_output=True, text=True)
+
+    assert done.returncode == 1
+    assert "a folder/radsig-lowtran: No such file or directory (make atmosphere builds it)" in done.stderr
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_run_leaves_the_old_file_and_nothing_else(atmosphere, tmp_path, number):
+    (tmp_path / "scratch").mkdir()
+    (tmp_path / "x.radc").write_text("old")
+    started = subprocess.Popen([BUILD / "radsig-atmosphere", "make", VISIBLE, "-o", tmp_path / "x.radc"],
+                               env={**os.environ, "TMPDIR": str(tmp_path / "scratch")}, stderr=subprocess.PIPE,
+                               start_new_session=True)
+    while not list((tmp_path / "scratch").glob("*/*/TAPE5")):
+        assert started.poll() is None
+        time.sleep(0.01)
+    os.killpg(started.pid, number)  # as a terminal does, to LOWTRAN's processes too
+    said = started.communicate()[1]
+
+    assert started.returncode == 130 and b"interrupted" in said
+    assert (tmp_path / "x.radc").read_text() == "old"
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["scratch", "x.radc"]
+
+
+def test_by_night_one_run_serves_all_azimuths(atmosphere, tmp_path):
+    decks = tmp_path / "decks"
+    atmosphere("make", VISIBLE.with_name("january_night.toml"), "-o", tmp_path / "x.radc", "--keep-decks", decks)
+    sky = [path.read_text() for path in decks.glob("sky_*")]
+
+    assert len(sky) == 1 + 6 * 13  # the zenith, and 13 azimuths from 0 to 360 at each other angle
+    assert len(set(sky)) == 7
