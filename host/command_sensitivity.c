@@ -209,8 +209,14 @@ status command_sensitivity(const sensitivity_request *request)
     TRY(weather_read(&w, request->weather));
     weather_place_check_day(w, &request->place, request->weather);
     TRY(device_open(&dev, -1));
-    const sensitivity_study study = {list.object,    list.count,    request->is_layered, w,
-                                     request->place, request->runs, request->seed};
+    const sensitivity_study study = {.object = list.object,
+                                     .count = list.count,
+                                     .is_layered = request->is_layered,
+                                     .laws = request->laws,
+                                     .history = w,
+                                     .place = request->place,
+                                     .runs = request->runs,
+                                     .seed = request->seed};
     TRY(sensitivity_run(&result, dev, &study));
     if (request->plot) TRY(plot(&result, w, request->plot));
     print_table(&result, request, list.count);

@@ -2,6 +2,7 @@
 #ifndef COMMAND_SENSITIVITY_H
 #define COMMAND_SENSITIVITY_H
 
+#include "forcing.h"
 #include "material.h"
 #include "records.h"
 #include "site.h"
@@ -17,6 +18,7 @@ typedef struct sensitivity_request {
     const char *plot;     /* NULL: none */
     facet_record facet;
     site place;
+    forcing_laws laws;
     bool is_layered;
     uint32_t runs, seed;
 } sensitivity_request;

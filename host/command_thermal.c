@@ -17,7 +17,7 @@ static const char help[] =
     "usage: radsig thermal --materials FILE --material NAME --weather FILE --site LAT,LON\n"
     "                      --date YYYY-MM-DD --utc-offset H --thickness-cm X\n"
     "                      [--slope D --azimuth D --power-w-m2 X --model therm|layered\n"
-    "                       --plot FILE.png]\n"
+    "                       --sky-longwave LAW --convection LAW --diffuse LAW --plot FILE.png]\n"
     "       radsig thermal --sensitivity --materials FILE --weather FILE --site LAT,LON\n"
     "                      --date YYYY-MM-DD --utc-offset H\n"
     "                      [--objects FILE.csv | --thickness-cm X ...] [--runs N --seed N]\n"
@@ -32,6 +32,9 @@ static const char help[] =
     "  --power-w-m2   self-generated (default 0)\n"
     "  --model        therm (the default), or layered: unequal nodes, McAdams' convection, air\n"
     "                 behind where abs(exposed area) is above .75\n"
+    "  --sky-longwave brunt (the default), berdahl-martin or brutsaert\n"
+    "  --convection   therm or mcadams; by default the model's own\n"
+    "  --diffuse      isotropic (the default) or hay-davies\n"
     "  --plot         draws the temperatures and the air's\n"
     "\n"
     "With --sensitivity one input after the other is off by its measurement error, and the table\n"
@@ -53,6 +56,7 @@ typedef struct thermal_request {
     const char *plot, *objects;
     double slope_deg, azimuth_deg, thickness_cm, power_w_m2;
     double runs, seed;
+    forcing_laws laws;
     bool is_layered, is_sensitivity;
 } thermal_request;
 
@@ -68,6 +72,9 @@ enum {
     THICKNESS,
     POWER,
     MODEL,
+    SKY_LONGWAVE,
+    CONVECTION,
+    DIFFUSE,
     PLOT,
     OBJECTS,
     RUNS,
@@ -89,6 +96,9 @@ static const struct option options[] = {[MATERIALS] = {"materials", 1, NULL, MAT
                                         [THICKNESS] = {"thickness-cm", 1, NULL, THICKNESS},
                                         [POWER] = {"power-w-m2", 1, NULL, POWER},
                                         [MODEL] = {"model", 1, NULL, MODEL},
+                                        [SKY_LONGWAVE] = {"sky-longwave", 1, NULL, SKY_LONGWAVE},
+                                        [CONVECTION] = {"convection", 1, NULL, CONVECTION},
+                                        [DIFFUSE] = {"diffuse", 1, NULL, DIFFUSE},
                                         [PLOT] = {"plot", 1, NULL, PLOT},
                                         [OBJECTS] = {"objects", 1, NULL, OBJECTS},
                                         [RUNS] = {"runs", 1, NULL, RUNS},
@@ -155,7 +165,9 @@ static int check_values(char *value[VALUES], thermal_request *out)
     if (value[MODEL] && strcmp(value[MODEL], "therm") && strcmp(value[MODEL], "layered"))
         return command_misuse("thermal", "--model '%s': expected therm or layered", value[MODEL]);
     out->is_layered = value[MODEL] && !strcmp(value[MODEL], "layered");
-    if (check_place(value, &out->place)) return EXIT_USAGE;
+    if (check_place(value, &out->place) ||
+        command_laws("thermal", value[SKY_LONGWAVE], value[CONVECTION], value[DIFFUSE], &out->laws))
+        return EXIT_USAGE;
     if (check_number(value[SLOPE], SLOPE, 0.0, 180.0, &out->slope_deg) ||
         check_number(value[AZIMUTH], AZIMUTH, -360.0, 360.0, &out->azimuth_deg) ||
         check_number(value[THICKNESS], THICKNESS, 1e-4, 1e4, &out->thickness_cm) ||
@@ -260,7 +272,8 @@ static status run(const thermal_request *request)
     const facet_record facet = facet_of(request);
     const layered_matter layered = layered_matter_default();
     material_record record;
-    const thermal_matter matter = {&record, request->is_layered ? &layered : NULL, NULL, 1};
+    const thermal_matter matter = {&record, request->is_layered ? &layered : NULL, NULL, 1,
+                                   request->laws};
 
     TRY(material_library_read(&library, request->materials));
     const material *named = material_by_name(library, request->material);
@@ -292,6 +305,7 @@ static status run_sensitivity(const thermal_request *r)
                                          .plot = r->plot,
                                          .facet = facet_of(r),
                                          .place = r->place,
+                                         .laws = r->laws,
                                          .is_layered = r->is_layered,
                                          .runs = (uint32_t)r->runs,
                                          .seed = (uint32_t)r->seed};

@@ -18,7 +18,7 @@ static const char help[] =
     "           --conductivity-w-m-k K --heat-capacity-j-m3-k C\n"
     "           [--surface-resistance-s-m DAY,NIGHT --back adiabatic|air|ground --model "
     "layered|therm\n"
-    "            -o FILE.csv --plot FILE.png]\n"
+    "            --sky-longwave LAW --convection LAW -o FILE.csv --plot FILE.png]\n"
     "\n"
     "Takes a level surface through measured weather and compares its temperature with the "
     "measured\n"
@@ -28,6 +28,9 @@ static const char help[] =
     "  --surface-resistance-s-m   to evaporation; without it the surface is dry\n"
     "  --back                     behind the thickness (default adiabatic); ground: the mean air\n"
     "                             temperature 1 m below the surface\n"
+    "  --sky-longwave             where none was measured: brunt (the default), berdahl-martin or\n"
+    "                             brutsaert\n"
+    "  --convection               therm or mcadams; by default the model's own\n"
     "  -o                         writes time_h,measured_c,predicted_c\n"
     "  --plot                     draws both\n";
 
@@ -38,6 +41,7 @@ typedef struct validation {
     material_record material;
     layered_matter layered;
     bool is_layered;
+    forcing_laws laws;
 } validation;
 
 enum {
@@ -52,6 +56,8 @@ enum {
     RESISTANCE,
     BACK,
     MODEL,
+    SKY_LONGWAVE,
+    CONVECTION,
     OUTPUT,
     PLOT
 };
@@ -69,6 +75,8 @@ static const struct option options[] = {
     [RESISTANCE] = {"surface-resistance-s-m", 1, NULL, RESISTANCE},
     [BACK] = {"back", 1, NULL, BACK},
     [MODEL] = {"model", 1, NULL, MODEL},
+    [SKY_LONGWAVE] = {"sky-longwave", 1, NULL, SKY_LONGWAVE},
+    [CONVECTION] = {"convection", 1, NULL, CONVECTION},
     [OUTPUT] = {"output", 1, NULL, OUTPUT},
     [PLOT] = {"plot", 1, NULL, PLOT},
     [HELP] = {"help", 0, NULL, HELP},
@@ -138,6 +146,7 @@ static int take_values(char *value[VALUES], validation *out)
     for (int i = 0; i < REQUIRED; i++)
         if (!value[i]) return command_misuse("validate", "needs --%s", options[i].name);
     if (take_place(value, &out->place) || take_layered(value, out) ||
+        command_laws("validate", value[SKY_LONGWAVE], value[CONVECTION], NULL, &out->laws) ||
         take_number(value, ABSORPTANCE, 0.0, 1.0, &out->material.solar_absorptance) ||
         take_number(value, EMISSIVITY, 0.1, 1.0, &out->material.thermal_emissivity) ||
         take_number(value, THICKNESS, 1e-4, 1e4, &thickness_cm) ||
@@ -202,7 +211,8 @@ out:
 static status predict(const validation *v, const weather *w, float *out_k)
 {
     status rc = STATUS_OK;
-    const thermal_matter matter = {&v->material, v->is_layered ? &v->layered : NULL, NULL, 1};
+    const thermal_matter matter = {&v->material, v->is_layered ? &v->layered : NULL, NULL, 1,
+                                   v->laws};
     device *dev = NULL;
     thermal *t = NULL;
 

@@ -1,5 +1,6 @@
 #include "command_value.h"
 
+#include "command.h"
 #include "record_file.h"
 
 #include <math.h>
@@ -19,4 +20,33 @@ bool command_place(const char *text, double *latitude_deg, double *longitude_deg
     *latitude_deg = value[0];
     *longitude_deg = value[1];
     return fabs(value[0]) <= 90.0 && fabs(value[1]) <= 180.0;
+}
+
+bool command_word(const char *text, const char *const *words, int count, int *out)
+{
+    for (int i = 0; i < count; i++) {
+        if (strcmp(text, words[i])) continue;
+        *out = i;
+        return true;
+    }
+    return false;
+}
+
+int command_laws(const char *command, const char *sky_longwave, const char *convection,
+                 const char *diffuse, forcing_laws *out)
+{
+    int sky = 0, air = -1, light = 0;
+
+    if (sky_longwave && !command_word(sky_longwave, forcing_sky_names, FORCING_SKIES, &sky))
+        return command_misuse(command,
+                              "--sky-longwave '%s': expected brunt, berdahl-martin or "
+                              "brutsaert",
+                              sky_longwave);
+    if (convection &&
+        !command_word(convection, forcing_convection_names + 1, FORCING_CONVECTIONS - 1, &air))
+        return command_misuse(command, "--convection '%s': expected therm or mcadams", convection);
+    if (diffuse && !command_word(diffuse, forcing_diffuse_names, FORCING_DIFFUSES, &light))
+        return command_misuse(command, "--diffuse '%s': expected isotropic or hay-davies", diffuse);
+    *out = (forcing_laws){(forcing_sky)sky, (forcing_convection)(air + 1), (forcing_diffuse)light};
+    return 0;
 }

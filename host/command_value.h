@@ -2,6 +2,8 @@
 #ifndef COMMAND_VALUE_H
 #define COMMAND_VALUE_H
 
+#include "forcing.h"
+
 #include <stdbool.h>
 
 /* Takes one number from low to high. */
@@ -9,5 +11,12 @@ bool command_number(const char *text, double low, double high, double *out);
 
 /* Takes LAT,LON in degrees, north- and east-positive. */
 bool command_place(const char *text, double *latitude_deg, double *longitude_deg);
+
+/* Takes one of `count` words; sets its index. */
+bool command_word(const char *text, const char *const *words, int count, int *out);
+
+/* Sets the laws that are stated; NULL is none. Returns 0, or the exit code of a misuse. */
+int command_laws(const char *command, const char *sky_longwave, const char *convection,
+                 const char *diffuse, forcing_laws *out);
 
 #endif

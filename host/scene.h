@@ -9,6 +9,7 @@
 #include "degradation.h"
 #include "emissivity.h"
 #include "extinction.h"
+#include "forcing.h"
 #include "geometry.h"
 #include "layered.h"
 #include "power.h"
@@ -53,6 +54,7 @@ typedef struct scene {
     char *path, *folder, *name;
     site place;
     weather *history; /* NULL with thermal fixed and no [weather] */
+    forcing_laws laws;
     atmosphere *air;
     bool is_uniform; /* the sky goes all round, below the horizon too */
     geometry *shape;

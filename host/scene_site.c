@@ -93,6 +93,19 @@ static void read_history(scene_reader *reader, const char *path)
         weather_place_check(s->history, &s->place, path);
 }
 
+static void read_laws(scene_table *t, forcing_laws *out)
+{
+    int sky = out->sky, diffuse = out->diffuse, convection = 0;
+
+    scene_table_word(t, "sky_longwave", forcing_sky_names, FORCING_SKIES, &sky);
+    scene_table_word(t, "diffuse", forcing_diffuse_names, FORCING_DIFFUSES, &diffuse);
+    if (scene_table_word(t, "convection", forcing_convection_names + 1, FORCING_CONVECTIONS - 1,
+                         &convection))
+        out->convection = (forcing_convection)(convection + 1);
+    out->sky = (forcing_sky)sky;
+    out->diffuse = (forcing_diffuse)diffuse;
+}
+
 void scene_read_weather(scene_reader *reader)
 {
     const toml_node *node = toml_node_get(reader->root, "weather");
@@ -102,6 +115,7 @@ void scene_read_weather(scene_reader *reader)
     const char *path;
 
     if (!t.node) return;
+    read_laws(&t, &reader->s->laws);
     if (scene_table_has(&t, "history")) {
         if (scene_table_file(&t, "history", &path)) read_history(reader, path);
         scene_table_close(&t);

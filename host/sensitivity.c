@@ -190,7 +190,8 @@ static status bench_run(bench *b, float *out_k)
 {
     status rc = STATUS_OK;
     const sensitivity_study *s = b->study;
-    const thermal_matter matter = {b->material, s->is_layered ? b->layered : NULL, NULL, s->count};
+    const thermal_matter matter = {b->material, s->is_layered ? b->layered : NULL, NULL, s->count,
+                                   s->laws};
     thermal *t = NULL;
 
     for (size_t i = 0; i < s->count; i++) {

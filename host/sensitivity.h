@@ -17,6 +17,7 @@ typedef struct sensitivity_study {
     const sensitivity_object *object; /* shape (count) */
     size_t count;
     bool is_layered;
+    forcing_laws laws;
     const weather *history;
     site place;
     uint32_t runs; /* of each input */

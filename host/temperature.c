@@ -40,7 +40,8 @@ static status open_model(temperature *t, const scene *s)
     layered_matter *layered = malloc((s->material_count + 1) * sizeof *layered);
     power_table *power = malloc((s->material_count + 1) * sizeof *power);
     const bool is_layered = s->thermal == SCENE_THERMAL_LAYERED;
-    const thermal_matter matter = {material, is_layered ? layered : NULL, power, s->material_count};
+    const thermal_matter matter = {material, is_layered ? layered : NULL, power, s->material_count,
+                                   s->laws};
 
     NEED(material && layered && power, STATUS_MEMORY, "no memory for %u materials",
          s->material_count);

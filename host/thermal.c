@@ -11,8 +11,6 @@
 
 enum { LANES = 16 }; /* facets of a work-item */
 
-#define WATER_J_M3_K 4.182e6 /* density times specific heat of water at 20 C */
-
 struct thermal {
     device *dev;
     material_record *material;
@@ -25,47 +23,8 @@ struct thermal {
     double step_s, time_h; /* of the image, since the first step */
 };
 
-/* Rise of the sky's emissivity under an overcast of each cloud type: Bolz. */
-static const double cloud_rise[WEATHER_CLOUD_TYPES] = {0.0,  0.04, 0.08, 0.17, 0.20,
-                                                       0.22, 0.24, 0.25, 0.25};
-
-/* Brunt's clear sky with the share and kind of cloud. */
-static double sky_emissivity(const weather_record *w)
-{
-    const double vapour_mbar = weather_saturation_pa(w->dew_point_k) / 100.0;
-    const double cover = 1.0 - w->sky_exposure;
-    const double clear = 0.605 + 0.048 * sqrt(vapour_mbar);
-
-    return fmin(1.0, clear * (1.0 + cloud_rise[w->cloud_type] * cover * cover));
-}
-
-static forcing_record forcing_of(const weather_record *w, sun_position sun, bool is_layered)
-{
-    const double air_k = w->air_temperature_k;
-    const double modelled_w_m2 =
-        sky_emissivity(w) * (double)STEFAN_BOLTZMANN * air_k * air_k * air_k * air_k;
-    const double rain_m_s = w->precipitation_type ? w->precipitation_m_s : 0.0;
-    double direction[3];
-    forcing_record out = {
-        .air_temperature_k = (float)air_k,
-        .sky_longwave_w_m2 = (float)(w->longwave_w_m2 > 0.0 ? w->longwave_w_m2 : modelled_w_m2),
-        .convection_w_m2_k =
-            (float)(is_layered ? 5.7 + 3.8 * w->wind_m_s : 9.0 + 1.2 * w->wind_m_s),
-        .direct_w_m2 = sun.zenith_rad < 0.5 * M_PI ? (float)w->direct_w_m2 : 0.0f,
-        .diffuse_w_m2 = (float)w->diffuse_w_m2,
-        .rain_w_m2_k = (float)(WATER_J_M3_K * rain_m_s),
-        /* Dry steps take the air's, so that a value between steps is one of rain. */
-        .rain_temperature_k = (float)(rain_m_s > 0.0 ? w->precipitation_temperature_k : air_k),
-        .specific_humidity = (float)weather_specific_humidity(w),
-        .pressure_pa = (float)w->pressure_pa,
-    };
-
-    sun_direction(sun, direction);
-    for (int i = 0; i < 3; i++) out.sun[i] = (float)direction[i];
-    return out;
-}
-
-static status upload_forcing(thermal *t, const weather *w, const site *place)
+static status upload_forcing(thermal *t, const forcing_laws *laws, const weather *w,
+                             const site *place)
 {
     status rc = STATUS_OK;
     const double origin_s = weather_origin_s(w, place);
@@ -75,7 +34,7 @@ static status upload_forcing(thermal *t, const weather *w, const site *place)
     for (size_t i = 0; i < w->count; i++) {
         const double time_s = origin_s + 3600.0 * w->record[i].time_h;
         const sun_position sun = sun_at(time_s, place->latitude_deg, place->longitude_deg);
-        forcing[i] = forcing_of(&w->record[i], sun, t->layered != NULL);
+        forcing[i] = forcing_of(&w->record[i], sun, laws, t->layered != NULL);
         t->mean_air_k += w->record[i].air_temperature_k / (double)w->count;
     }
     TRY(device_allocate(t->dev, &t->forcing, w->count * sizeof *forcing, forcing));
@@ -137,7 +96,7 @@ status thermal_open(thermal **out, device *dev, const thermal_matter *matter, co
         .time_h = (place->time_s - weather_origin_s(w, place)) / 3600.0 - w->record[0].time_h,
     };
     TRY(keep_matter(t, matter));
-    TRY(upload_forcing(t, w, place));
+    TRY(upload_forcing(t, &matter->laws, w, place));
     TRY(upload_power(t, matter, w));
     *out = t;
     t = NULL;

@@ -6,6 +6,7 @@
 
 #include "../kernels/records.h"
 #include "device.h"
+#include "forcing.h"
 #include "layered.h"
 #include "power.h"
 #include "site.h"
@@ -19,11 +20,11 @@ typedef struct thermal_matter {
     const layered_matter *layered;   /* shape (count); NULL: as THERM does it */
     const power_table *power;        /* shape (count); NULL: none */
     size_t count;
+    forcing_laws laws; /* how weather acts on them */
 } thermal_matter;
 
-/* Turns the weather into what acts on a surface: wind as 9 + 1.2 V W m-2 K-1, for layered facets as
- * 5.7 + 3.8 V (McAdams). The last full day of the history is the day of the site's time. The device
- * must outlive it. */
+/* Turns the weather into what acts on a surface. The last full day of the history is the day of the
+ * site's time. The device must outlive it. */
 status thermal_open(thermal **out, device *dev, const thermal_matter *matter, const weather *w,
                     const site *place);
 void thermal_free(thermal *t);

@@ -132,6 +132,9 @@ def test_air_that_is_a_fifth_of_a_degree_warmer_warms_objects_by_as_much(
     ({"utc-offset": "EDT"}, "--utc-offset 'EDT'"),
     ({"slope": "200"}, "--slope '200'"),
     ({"weather": None}, "needs --weather"),
+    ({"sky_longwave": "x"}, "--sky-longwave 'x': expected brunt"),
+    ({"convection": "x"}, "--convection 'x': expected therm"),
+    ({"diffuse": "x"}, "--diffuse 'x': expected isotropic"),
     ({"bogus": 1}, "'--bogus=1' is no option"),
 ])
 def test_wrong_usage_exits_2_and_says_why(materials, changes, text):
@@ -165,6 +168,16 @@ def test_both_models_agree_on_a_thin_sheet_but_for_their_convection(materials):
             for model in ("therm", "layered")]
 
     assert abs(noon[0] - noon[1]) < 12 and noon[0] != noon[1]
+
+
+def test_the_sun_s_own_part_of_the_sky_warms_a_wall_that_faces_it(materials, second_day):
+    done = of_row(materials, "Front_Black", diffuse="hay-davies")
+    rows = [tuple(map(float, line.split(","))) for line in done.stdout.splitlines()[1:]]
+    usual = dict(second_day("Front_Black"))
+    rise = {hour - 24: t - usual[hour - 24] for hour, t in rows if hour >= 24}
+
+    # an east wall: more in the morning, less with the sun behind it
+    assert 0.1 < rise[9.0] < 3 and -3 < rise[16.0] < -0.1
 
 
 def test_a_plot_is_a_png_that_shows_both_curves(materials, tmp_path):

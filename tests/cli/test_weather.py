@@ -72,3 +72,34 @@ def test_a_scene_takes_measured_weather_from_a_table(program, tmp_path):
     planes = program.render(tmp_path, **scene({"history": "day.csv"})).planes
 
     assert planes["temperature_c"] == pytest.approx(20.0, abs=0.01)
+
+
+@pytest.mark.parametrize("law", [{"sky_longwave": "berdahl-martin"}, {"sky_longwave": "brutsaert"},
+                                 {"convection": "mcadams"}, {"diffuse": "hay-davies"}])
+def test_laws_of_sky_and_air_are_chosen_in_the_scene(program, tmp_path, law):
+    usual, other = (program.render(tmp_path, **scene({**WEATHER, **chosen})).planes["temperature_c"]
+                    for chosen in ({}, law))
+
+    assert (other != usual).any()
+    # level ground gets the same light whatever its direction, skies differ by a few per cent, and
+    # 5.7 + 3.8 V is 13.3 W m-2 K-1 at 2 m/s where 9 + 1.2 V is 11.4
+    assert abs(other - usual).max() < {"diffuse": 0.01, "convection": 5}.get(next(iter(law)), 1.5)
+
+
+def test_the_stated_defaults_are_the_defaults(program, tmp_path):
+    stated = {"sky_longwave": "brunt", "convection": "therm", "diffuse": "isotropic"}
+    one, other = (program.render(tmp_path, **scene({**WEATHER, **laws})).planes["temperature_c"]
+                  for laws in ({}, stated))
+
+    assert (one == other).all()
+
+
+@pytest.mark.parametrize("law, text", [
+    ({"sky_longwave": "swinbank"}, 'sky_longwave: found "swinbank", expected'),
+    ({"convection": "dittus"}, 'convection: found "dittus", expected'),
+    ({"diffuse": "perez"}, 'diffuse: found "perez", expected'),
+])
+def test_a_law_that_is_not_known_is_refused_at_its_line(program, tmp_path, law, text):
+    done = program.run("check", program.write_scene(tmp_path, **scene({**WEATHER, **law})))
+
+    assert done.returncode == 1 and text in done.stderr and "scene.toml:" in done.stderr
