@@ -1,5 +1,7 @@
 #include "render_tables.h"
 
+#include "lobe.h"
+
 #include <stdlib.h>
 
 status render_tables_take_facets(render_tables *t, device *dev, const scene *s)
@@ -24,7 +26,7 @@ out:
     return rc;
 }
 
-/* The emissivity of all materials on the samples of the bands: 91 rows or one each. */
+/* The emissivity of all materials on the samples of the bands, and their diffuse lobes. */
 static status upload_emissivity(render_tables *t, device *dev, const scene *s)
 {
     status rc = STATUS_OK;
@@ -40,6 +42,9 @@ static status upload_emissivity(render_tables *t, device *dev, const scene *s)
             spectra_sample_emissivity(t->bands, m->table, first);
         else
             for (size_t k = 0; k < samples; k++) first[k] = (float)m->grey_emissivity;
+        if (m->record.lobe_first != RECORD_NONE)
+            lobe_fill(first, t->bands->sample_count, scene_lobe_rings(s),
+                      rows + (size_t)m->record.lobe_first * samples);
     }
     TRY(device_allocate(dev, &t->emissivity_rows, bytes, rows));
 out:

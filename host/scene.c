@@ -1,5 +1,6 @@
 #include "scene.h"
 
+#include "../kernels/lobe.h"
 #include "scene_parts.h"
 
 #include <math.h>
@@ -303,12 +304,24 @@ bool scene_sums_points(const scene *s)
     return s->thesis && !s->is_uniform;
 }
 
+uint32_t scene_lobe_rings(const scene *s)
+{
+    return (uint32_t)lround(90.0 / s->hemisphere_zenith_step_deg);
+}
+
+uint32_t scene_lobe_rows(const scene *s, uint32_t material)
+{
+    const bool has_lobe = !s->thesis && s->materials[material].record.emissivity_angles > 1;
+
+    return has_lobe ? LOBE_ROWS + scene_lobe_rings(s) : 0;
+}
+
 uint32_t scene_emissivity_rows(const scene *s)
 {
     uint32_t rows = 0;
 
     for (uint32_t i = 0; i < s->material_count; i++)
-        rows += s->materials[i].record.emissivity_angles;
+        rows += s->materials[i].record.emissivity_angles + scene_lobe_rows(s, i);
     return rows;
 }
 

@@ -91,8 +91,15 @@ status scene_keep_bands(scene *s, const char *names);
 /* True where bands are summed over the database's points: thesis mode, and there is a database. */
 bool scene_sums_points(const scene *s);
 
-/* Number of rows in the emissivity table of all materials: 91 or 1 each. */
+/* Number of rows in the emissivity table of all materials: 91 or 1 each, and behind them all the
+ * rows of diffuse lobes (lobe.h). */
 uint32_t scene_emissivity_rows(const scene *s);
+
+/* Rows of a material's diffuse lobe: 0 in thesis mode and where the emissivity has no angles. */
+uint32_t scene_lobe_rows(const scene *s, uint32_t material);
+
+/* Rings of the hemisphere. */
+uint32_t scene_lobe_rings(const scene *s);
 
 /* Fills the records of the facets and, behind them, of the ground plane if there is one.
  *   out   shape (facet_count + 1) */

@@ -270,6 +270,22 @@ static uint32_t use_material(const material_sources *from, const char *name, int
     return s->material_count - 1;
 }
 
+/* Rows of the emissivity table: of all materials, then of all their diffuse lobes. */
+static void place_rows(scene *s)
+{
+    uint32_t row = 0;
+
+    for (uint32_t i = 0; i < s->material_count; i++) {
+        s->materials[i].record.emissivity_first = row;
+        row += s->materials[i].record.emissivity_angles;
+    }
+    for (uint32_t i = 0; i < s->material_count; i++) {
+        const uint32_t rows = scene_lobe_rows(s, i);
+        s->materials[i].record.lobe_first = rows > 0 ? row : RECORD_NONE;
+        row += rows;
+    }
+}
+
 static void use_all(const material_sources *from, const char *ground_material)
 {
     scene *s = from->reader->s;
@@ -287,10 +303,7 @@ static void use_all(const material_sources *from, const char *ground_material)
             use_material(from, g->materials[i].name, g->materials[i].code, g->materials[i].path);
     if (ground_material)
         s->ground_material = use_material(from, ground_material, -1, "ground_material");
-    for (uint32_t i = 0, row = 0; i < s->material_count; i++) {
-        s->materials[i].record.emissivity_first = row;
-        row += s->materials[i].record.emissivity_angles;
-    }
+    place_rows(s);
 }
 
 void scene_read_materials(scene_reader *reader, const char *ground_material)

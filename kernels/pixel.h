@@ -4,6 +4,7 @@
 
 #include "air_path.h"
 #include "camera.h"
+#include "lobe.h"
 #include "sky.h"
 
 /* Interactions of a ray with the scene, as the plane `interaction` holds them (Figure 3-10). */
@@ -18,8 +19,12 @@ typedef struct pixel_state {
     float sunlit, sun_cosine; /* tau1c, cos(theta_S) */
     float view_angle_deg;     /* theta: from the normal to the sensor */
     lookup emissivity;
-    air_way way;        /* of the sensor's ray */
-    float shape_factor; /* F */
+    lookup sun_emissivity; /* at theta_S */
+    uint lobe_row;         /* 1 / (1 - e_hemi), RECORD_NONE: Lambertian */
+    float specular_share;  /* k_s; of the sun in exact mode */
+    float glint;           /* D: its lobe towards the sun, per sr */
+    air_way way;           /* of the sensor's ray */
+    float shape_factor;    /* F */
     float background_temperature_k;
     float background_sunlit, background_sun_cosine; /* tau_SB, cos(theta_B) */
     lookup background_emissivity;                   /* at theta_BT */
@@ -94,6 +99,22 @@ static inline uint pixel_interaction(material_record target, background_record b
                                            : INTERACTION_SPECULAR_BACKGROUND;
 }
 
+/* Sets where the target sends the sun's light in exact mode; thesis mode knows none of it. */
+static inline void pixel_set_lobes(pixel_state *state, radiometry_record frame, hit_record hit,
+                                   material_record material, const float *ray)
+{
+    float to_sensor[3];
+
+    state->lobe_row = RECORD_NONE;
+    if (frame.thesis) return;
+    for (int k = 0; k < 3; k++) to_sensor[k] = -ray[k];
+    state->lobe_row = material.lobe_first;
+    state->sun_emissivity = lookup_emissivity(material, pixel_angle_deg(state->sun_cosine), 0u);
+    state->specular_share = material.specular_share;
+    if (material.specular_share > 0.0f)
+        state->glint = lobe_of_sun(material.roughness, hit.normal, to_sensor, frame.sun);
+}
+
 /* Sets what a pixel sees of its target; the interaction is set.
  *   ray   unit, from the sensor to the target */
 static inline void pixel_set_target(pixel_state *state, radiometry_record frame, hit_record hit,
@@ -105,6 +126,7 @@ static inline void pixel_set_target(pixel_state *state, radiometry_record frame,
 
     state->view_angle_deg = pixel_angle_deg(cosine);
     state->sun_cosine = pixel_dot(hit.normal, frame.sun);
+    pixel_set_lobes(state, frame, hit, material, ray);
     state->emissivity =
         lookup_emissivity(material, at_normal ? 0.0f : state->view_angle_deg, frame.thesis);
     for (int k = 0; k < 3; k++) bounce[k] = ray[k] + 2.0f * cosine * hit.normal[k];

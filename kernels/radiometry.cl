@@ -37,6 +37,24 @@ static spectrum load_sun(spectra_tables tables, radiometry_record frame, uint pa
     return sun * transmission_along(tables.extinction, frame.sample_count, &bodies, block);
 }
 
+/* What the target gets of the sun, still to be multiplied by (1 - e): as eq. 2.4-2 has it, and in
+ * exact mode by its lobes. */
+static spectrum load_sun_on_target(const pixel_state *pixel, spectra_tables tables,
+                                   radiometry_record frame, uint block)
+{
+    const uint row = frame.sample_count;
+    const spectrum sun = load_sun(tables, frame, TRANSMISSION_SUN, block);
+    spectrum diffuse = sun_on_surface(sun, pixel->sunlit, pixel->sun_cosine);
+
+    if (pixel->lobe_row != RECORD_NONE)
+        diffuse *=
+            lobe_diffuse(lookup_spectrum(tables.emissivity, row, pixel->sun_emissivity, block),
+                         spectrum_load(tables.emissivity + (size_t)pixel->lobe_row * row, block));
+    if (pixel->specular_share == 0.0f) return diffuse;
+    return diffuse * (1.0f - pixel->specular_share) +
+           sun * (pixel->specular_share * pixel->sunlit * pixel->glint);
+}
+
 /* What is seen through the bodies on a way, and they themselves. */
 static spectrum see_through(spectrum radiance, spectra_tables tables, radiometry_record frame,
                             uint path, uint block)
@@ -146,8 +164,7 @@ static void add_target(band_sums *sums, const pixel_state *pixel, spectra_tables
     const spectrum black_body = planck_radiance(
         load_row(tables, frame, SPECTRA_PLANCK_FIRST, block),
         load_row(tables, frame, SPECTRA_PLANCK_SECOND, block), pixel->temperature_k);
-    const spectrum sun = sun_on_surface(load_sun(tables, frame, TRANSMISSION_SUN, block),
-                                        pixel->sunlit, pixel->sun_cosine);
+    const spectrum sun = load_sun_on_target(pixel, tables, frame, block);
     const spectrum emissivity = lookup_spectrum(tables.emissivity, row, pixel->emissivity, block);
     air_terms terms = air_upto(tables.rows, frame, air, pixel->way, pixel->way.limit_m, block);
     spectrum behind = (spectrum)0.0f;

@@ -72,7 +72,8 @@ typedef struct material_record {
     uint emissivity_first;  /* first row of the material in the emissivity table */
     uint emissivity_angles; /* rows: 91 (0..90 degrees) or 1 (the same at all angles) */
     uint number;            /* material code as written in planes */
-    uint unused[2];
+    uint lobe_first; /* first row of its diffuse lobe in that table, RECORD_NONE: Lambertian */
+    float roughness; /* of the specular share: 0 a mirror .. 1 */
 } material_record;
 RECORD_SIZE(material_record, 48);
 

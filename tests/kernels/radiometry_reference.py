@@ -1,6 +1,7 @@
 """The equations of thesis 2.4 in float64 numpy, one pixel at a time, and random pixels to try them on.
 
 Written from eq. 2.4-1 and 2.4-2."""
+import lobe_reference
 import numpy as np
 import records
 from records import DIFFUSE, MISSED, NONE, SPECULAR_BACKGROUND, SPECULAR_SKY
@@ -155,6 +156,24 @@ class Reference:
         sun = sun * self.transmission(BACKGROUND_SUN, pixel)
         return e * planck(self.wavelength_um, float(b["mean_temperature_k"])) + sun * (1 - e), e
 
+    def lobes(self, material, normal, ray):
+        """What is reflected of an irradiance normal to the beam, over 1 - e, per sr: eq. 2.4-2's cosine
+        over pi in the thesis' mode; else (1 - e_S) / (1 - e_hemi) of it, and a specular share's lobe."""
+        towards = self.frame["sun"].astype(np.float64)
+        cosine = max(0.0, normal @ towards)
+        if self.frame["thesis"]:
+            return cosine / np.pi
+        diffuse = cosine / np.pi
+        if material["emissivity_angles"] > 1:
+            rows = self.emissivity_rows[material["emissivity_first"]:][:91]
+            diffuse = diffuse * (1 - self.emissivity(material, angle_deg(cosine))) * (
+                lobe_reference.over_reflectance(rows))
+        share = float(material["specular_share"])
+        if share == 0:
+            return diffuse
+        lobe = lobe_reference.of_sun(float(material["roughness"]), normal, -ray, towards)
+        return (1 - share) * diffuse + share * lobe
+
     def pixel(self, pixel):
         """Interaction, spectral radiance at the sensor, emissivity and background's (or None)."""
         case, hit, b = self.case, self.case.hit[pixel], self.case.background[pixel]
@@ -175,8 +194,7 @@ class Reference:
         behind, e_b = (0.0, None) if b["facet"] == NONE else self.background(pixel)
         if kind == SPECULAR_BACKGROUND:
             behind = self.seen_through(behind, BACKGROUND, pixel)
-        cosine = max(0.0, normal @ self.frame["sun"].astype(np.float64))
-        sun = self.rows[records.SUN] / np.pi * float(case.sunlit[pixel]) * cosine
+        sun = self.rows[records.SUN] * float(case.sunlit[pixel]) * self.lobes(material, normal, ray)
         sun = sun * self.transmission(SUN_WAY, pixel)
         above = share * sky, (1 - share) * behind
         if not self.frame["thesis"]:  # exact mode takes what incident.cl made
@@ -265,6 +283,7 @@ class Case:
         rows = np.cumsum(self.materials["emissivity_angles"])
         self.materials["emissivity_first"] = np.concatenate([[0], rows[:-1]])
         self.materials["number"] = [3, 14, 15, 92, 65, 35]
+        self.materials["roughness"] = [0, 0.3, 0, 0.6, 0, 0.05]
         self.facets = np.zeros(40, records.FACET)
         self.facets["material"] = self.random.integers(0, 6, 40)
         self.temperature_k = self.random.uniform(240, 340, 40).astype(np.float32)
@@ -273,7 +292,11 @@ class Case:
             at_normal = self.random.uniform(0.1, 1.0, len(self.weight))
             angle = np.radians(np.arange(angles))[:, None]
             table.append(at_normal * np.cos(angle) ** 0.3)
-        self.emissivity = np.concatenate(table).astype(np.float32)
+        lobed = np.flatnonzero(self.materials["emissivity_angles"] > 1)
+        self.materials["lobe_first"] = NONE
+        self.materials["lobe_first"][lobed] = rows[-1] + np.arange(len(lobed))
+        lobes = [lobe_reference.over_reflectance(table[i])[None] for i in lobed]
+        self.emissivity = np.concatenate(table + lobes).astype(np.float32)
 
     def set_spectra(self):
         f, n = self.frame[0], len(self.weight)

@@ -25,7 +25,7 @@ FACET = record("normal[3] *material slope_rad azimuth_rad thickness_m power_w_m2
                " stated_temperature_k *two_sided *unused[2]")
 MATERIAL = record("density_kg_m3 specific_heat_j_kg_k conductivity_w_m_k solar_absorptance"
                   " thermal_emissivity exposed_area specular_share *emissivity_first"
-                  " *emissivity_angles *number *unused[2]")
+                  " *emissivity_angles *number *lobe_first roughness")
 FORCING = record("air_temperature_k sky_longwave_w_m2 convection_w_m2_k direct_w_m2 diffuse_w_m2"
                  " sun[3] rain_w_m2_k rain_temperature_k specific_humidity"
                  " pressure_pa")

@@ -193,6 +193,7 @@ def black_plane(low_um, high_um, temperature_k):
     case.frame["band_count"], case.frame["sample_count"] = 1, len(case.weight)
     case.frame["path_count"] = case.frame["zenith_count"] = case.frame["azimuth_count"] = 1
     case.materials[:1]["specular_share"], case.materials[:1]["emissivity_angles"] = 0, 1
+    case.materials["lobe_first"] = records.NONE
     case.facets["material"] = 0
     case.hit["facet"], case.hit["normal"] = 0, (0, 0, 1)
     case.background["facet"] = records.NONE

@@ -1,0 +1,88 @@
+"""Exact mode: how surfaces reflect, against closed forms and quadrature in float64 numpy."""
+import numpy as np
+import pytest
+
+BAND = 2e-4
+LWIR = (8.0, 14.0)
+ANGLES = np.arange(91.0)
+NOON = {"latitude_deg": 0.0, "longitude_deg": 0.0}
+
+
+def emits(angle_deg):
+    """An emissivity that falls as that of water does: .96 along the normal, 0 at 90 degrees."""
+    cosine = np.cos(np.radians(angle_deg))
+    return 0.96 * (1 - (1 - cosine) ** 5)
+
+
+def write_emissivity(folder, of_angle):
+    """The same at all wavenumbers."""
+    lines = []
+    for angle in ANGLES:
+        lines.append(f"{angle:.0f}")
+        lines += [f"{cm1} {of_angle(angle):.7f}" for cm1 in range(39850, 349, -100)]
+    (folder / "angular.ems").write_text("\n".join(lines) + "\n")
+    return {"name": "wall", "emissivity_file": "angular.ems", "temperature_k": 300.0}
+
+
+def reflects(angle_deg, of_angle=emits):
+    """1 - e, linear between degrees."""
+    return np.interp(angle_deg, ANGLES, 1 - of_angle(ANGLES))
+
+
+def hemisphere(of_angle=emits, low_deg=0.0, high_deg=90.0):
+    """Integral of (1 - e) 2 cos sin over angles from the normal."""
+    angle = np.linspace(low_deg, high_deg, 100001)
+    weight = np.sin(np.radians(2 * angle))
+    return np.trapz(reflects(angle, of_angle) * weight, np.radians(angle))
+
+
+def seen_from(angle_deg, azimuth_deg=0.0):
+    """A camera 9 km away that sees a speck of the plane at one angle."""
+    z, a = np.radians(angle_deg), np.radians(azimuth_deg)
+    at = 9e3 * np.array([np.sin(z) * np.sin(a), np.sin(z) * np.cos(a), np.cos(z)])
+    return {"position_m": at.tolist(), "target_m": [0.0, 0.0, 0.0], "focal_length_mm": 1e5,
+            "pixels": [2, 2]}
+
+
+def sun_angles(program, time):
+    line = program.run("sun", "--site=0,0", "--time", time).stdout.splitlines()[1]
+    return [float(x) for x in line.split(",")[1:3]]
+
+
+def sun_reflected(program, folder, view_deg, time):
+    """The part of the radiance, 8 to 14 um, of a sun of 50 W m-2 um-1."""
+    uniform = {**program.vacuum, "sun_irradiance_w_m2_um": 50.0}
+    got = program.render(folder, "--planes", "reflected_sun_lwir",
+                         material=[write_emissivity(folder, emits)],
+                         site={**NOON, "time": time}, camera=seen_from(view_deg),
+                         atmosphere={"uniform": uniform})
+    return got.planes["reflected_sun_lwir"].mean(dtype=float)
+
+
+def test_sunlight_is_reflected_by_a_lobe_that_is_the_same_both_ways(program, tmp_path):
+    """Seen from where the sun stood, with the sun where the camera was, the plane reflects as much of
+    the irradiance; 40 and 78 degrees, on either side."""
+    low, high = "1992-03-20T09:27:00+00:00", "1992-03-20T06:55:00+00:00"
+    angles = [sun_angles(program, time)[0] for time in (low, high)]
+    lobe = np.prod([reflects(a) for a in angles]) / (np.pi * hemisphere())
+    for name, view, sun, time in (("a", angles[1], angles[0], low), ("b", angles[0], angles[1], high)):
+        folder = tmp_path / name
+        folder.mkdir()
+
+        got = sun_reflected(program, folder, view, time)
+
+        irradiance = 6 * 50 * np.cos(np.radians(sun))
+        assert got / irradiance == pytest.approx(lobe, rel=2e-4)  # angles to .001 degree, .ems linear
+    assert abs(angles[0] - angles[1]) > 30
+
+
+@pytest.mark.parametrize("view_deg", [0.0, 60.0, 85.0])
+def test_what_a_plane_does_not_emit_it_reflects(program, radiance, tmp_path, view_deg):
+    """Kirchhoff: e B(T) + (1 - e) L under a sky of L all round."""
+    got = program.render(tmp_path, material=[write_emissivity(tmp_path, emits)],
+                         camera=seen_from(view_deg),
+                         atmosphere={"uniform": {**program.vacuum, "sky_radiance_w_m2_sr_um": 8.0}})
+
+    rho = reflects(view_deg)
+    expected = (1 - rho) * radiance.band_planck(*LWIR, 300) + rho * 6 * 8
+    assert got.planes["radiance_lwir"] == pytest.approx(expected, rel=BAND)
