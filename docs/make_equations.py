@@ -11,6 +11,7 @@ ROOT = Path(__file__).resolve().parent.parent
 TARGET = ROOT / "docs/equations.md"
 
 MEANING = {
+    "2.3.2-6": "facets seen from behind are not met",
     "2.4-1": "radiance at the sensor from a specular facet",
     "2.4-2": "radiance at the sensor from a diffuse facet",
     "2.4-3": "radiance in band: spectrum times response, integrated",

@@ -68,18 +68,27 @@ static void add_triangle(builder *b, uint32_t facet, uint32_t c0, uint32_t c1, u
     b->triangle[all->triangle_count++] = t;
 }
 
-static void add_facets(builder *b, uint32_t facet_count, const uint32_t (*corner)[4])
+static void add_sides(builder *b, bool two_sided, const triangle *t)
+{
+    const uint32_t *c = t->corner;
+
+    add_triangle(b, t->facet, c[0], c[1], c[2]);
+    if (two_sided) add_triangle(b, t->facet, c[0], c[2], c[1]);
+}
+
+static void add_facets(builder *b, const bvh_source *source)
 {
     float reach = 0;
 
-    for (uint32_t i = 0; i < facet_count; i++) {
-        const uint32_t *c = corner[i];
+    for (uint32_t i = 0; i < source->facet_count; i++) {
+        const uint32_t *c = source->corner[i];
+        const bool two_sided = source->two_sided && source->two_sided[i];
         if (c[3] == UINT32_MAX) {
-            add_triangle(b, i, c[0], c[1], c[2]);
+            add_sides(b, two_sided, &(triangle){{c[0], c[1], c[2]}, i});
         } else {
             const uint32_t d = polygon_diagonal(c, b->position);
-            add_triangle(b, i, c[d], c[d + 1], c[d + 2]);
-            add_triangle(b, i, c[d], c[d + 2], c[(d + 3) % 4]);
+            add_sides(b, two_sided, &(triangle){{c[d], c[d + 1], c[d + 2]}, i});
+            add_sides(b, two_sided, &(triangle){{c[d], c[d + 2], c[(d + 3) % 4]}, i});
         }
     }
     for (int k = 0; k < 3; k++) {
@@ -233,7 +242,7 @@ status bvh_build(bvh **out, const bvh_source *source)
     status rc = STATUS_OK;
     builder b = {.position = source->position};
     const uint32_t facet_count = source->facet_count;
-    const size_t most = 2 * (size_t)facet_count + 1;
+    const size_t most = (source->two_sided ? 4 : 2) * (size_t)facet_count + 1;
     uint32_t stack = 0;
 
     b.tree = calloc(1, sizeof *b.tree);
@@ -242,7 +251,7 @@ status bvh_build(bvh **out, const bvh_source *source)
     NEED(b.tree && b.triangle && b.item, STATUS_MEMORY, "no memory for a tree over %u facets",
          facet_count);
     NEED(most < UINT32_MAX / 2, STATUS_ARGUMENT, "a tree over %u facets is too large", facet_count);
-    add_facets(&b, facet_count, source->corner);
+    add_facets(&b, source);
     TRY(flatten(&b, false, &stack));
     if (stack > RAY_STACK_SIZE) {
         drop_flat(&b);

@@ -25,10 +25,13 @@ typedef struct bvh_source {
                                     counter-clockwise; the fourth is UINT32_MAX for a triangle. A
                                     quad becomes two triangles of one facet (polygon_diagonal) */
     const float (*position)[3];  /* shape (vertex_count), m, from an origin near the geometry */
+    const uint8_t *two_sided;    /* shape (facet_count); where it is not 0 the facet is in the tree
+                                    from behind too, so that rays that cull meet both its sides;
+                                    NULL: nowhere */
 } bvh_source;
 
 /* Goes up with every change of what bvh_build makes of a source: trees are kept on disk. */
-enum { BVH_LAYOUT = 1 };
+enum { BVH_LAYOUT = 2 };
 
 /* Builds the tree; the same input gives the same bytes. No facets make a tree that every ray misses.
  * Boxes are wider than the triangles by 2^-21 of the largest coordinate: what the rounding of an

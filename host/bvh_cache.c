@@ -30,7 +30,8 @@ static const char magic[8] = "radsigT";
 static void make_key(uint8_t out[KEY_SIZE], const bvh_source *source)
 {
     const uint32_t form[] = {BVH_LAYOUT,          sizeof(bvh_node),     sizeof(bvh_block),
-                             source->facet_count, source->vertex_count, 0x01020304};
+                             source->facet_count, source->vertex_count, source->two_sided != NULL,
+                             0x01020304};
     uint8_t digest[SHA512_DIGEST_LENGTH];
     SHA2_CTX context;
 
@@ -40,6 +41,7 @@ static void make_key(uint8_t out[KEY_SIZE], const bvh_source *source)
                  source->facet_count * sizeof *source->corner);
     SHA512Update(&context, (const uint8_t *)source->position,
                  source->vertex_count * sizeof *source->position);
+    if (source->two_sided) SHA512Update(&context, source->two_sided, source->facet_count);
     SHA512Final(digest, &context);
     memcpy(out, digest, KEY_SIZE);
 }

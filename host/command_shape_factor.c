@@ -157,7 +157,7 @@ static status run(const factor_request *request)
     TRY(ray_model_open(&model, request->device_index, request->path, request->path_count));
     ray_scene *scene = ray_model_scene(model);
     device *dev = ray_scene_device(scene);
-    ray_scene_set_cull(scene, request->cull_back);
+    ray_scene_set_cull(scene, false, request->cull_back);
     TRY(shape_factor_open(&grid, dev, request->reading, request->zenith_step_deg,
                           request->azimuth_step_deg));
     TRY(open_tables(dev, ray_model_geometry(model)->facet_count, &tables));

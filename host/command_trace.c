@@ -150,7 +150,7 @@ static status run(const trace_request *request)
 
     NEED(batch, STATUS_MEMORY, "no memory for a batch of rays");
     TRY(ray_model_open(&model, request->device_index, request->path, request->path_count));
-    ray_scene_set_cull(ray_model_scene(model), request->cull_back);
+    ray_scene_set_cull(ray_model_scene(model), false, request->cull_back);
     TRY(open_answer(&answer, ray_scene_device(ray_model_scene(model))));
     stream.origin_m = ray_model_geometry(model)->origin_m;
     for (;;) {

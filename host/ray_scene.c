@@ -10,6 +10,7 @@ struct ray_scene {
     device *dev;
     device_memory node, block;
     world_record world;
+    bool camera_culls;
 };
 
 /* The largest coordinate of the geometry. */
@@ -57,9 +58,10 @@ void ray_scene_set_ground(ray_scene *scene, uint32_t facet, float z_m)
     scene->world.ground_z_m = z_m;
 }
 
-void ray_scene_set_cull(ray_scene *scene, bool cull_back)
+void ray_scene_set_cull(ray_scene *scene, bool by_camera, bool by_others)
 {
-    scene->world.cull_back = cull_back;
+    scene->camera_culls = by_camera;
+    scene->world.cull_back = by_others;
 }
 
 device *ray_scene_device(const ray_scene *scene)
@@ -89,10 +91,11 @@ status ray_scene_primary(const ray_scene *scene, const camera_record *camera, ui
     const uint32_t rows = (first_pixel + count + columns - 1) / columns - first_pixel / columns;
     const device_shape shape =
         device_ray_shape(scene->dev, (size_t)columns * side, (rows + side - 1) / side);
+    world_record world = scene->world;
 
+    world.cull_back = scene->camera_culls;
     return device_run(scene->dev, "primary", shape, ARG(count), ARG(first_pixel), ARG(columns),
-                      ARG(*camera), ARG(scene->world), ARG(scene->node), ARG(scene->block),
-                      ARG(out_hit));
+                      ARG(*camera), ARG(world), ARG(scene->node), ARG(scene->block), ARG(out_hit));
 }
 
 /* A work-item has a batch of rays where it has packets; kernels/ray_order.h. */

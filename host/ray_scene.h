@@ -18,8 +18,9 @@ void ray_scene_free(ray_scene *scene);
  *   facet   its index in the tables of facets, past the real ones; RECORD_NONE: no plane */
 void ray_scene_set_ground(ray_scene *scene, uint32_t facet, float z_m);
 
-/* Lets every ray of the scene pass through facets that it meets from behind, or not (the default). */
-void ray_scene_set_cull(ray_scene *scene, bool cull_back);
+/* Lets rays pass through facets that they meet from behind, or not (the default): those of the
+ * camera, and all others. */
+void ray_scene_set_cull(ray_scene *scene, bool by_camera, bool by_others);
 
 device *ray_scene_device(const ray_scene *scene);
 device_memory ray_scene_nodes(const ray_scene *scene);

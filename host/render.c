@@ -30,6 +30,40 @@ static void end_stage(render *r, const char *name)
     r->stage_start_s = end;
 }
 
+/* Fills which facets are seen from both sides; false where none is. */
+static bool find_two_sided(const scene *s, uint8_t *out)
+{
+    bool any = false;
+
+    for (uint32_t i = 0; i < s->shape->facet_count; i++) {
+        out[i] = s->materials[s->material_of[s->shape->material[i]]].two_sided;
+        any |= out[i];
+    }
+    return any;
+}
+
+/* The tree of all that is opaque. */
+static status build_tree(bvh **out, const scene *s)
+{
+    status rc = STATUS_OK;
+    const geometry *g = s->shape;
+    uint32_t(*corner)[4] = malloc(((size_t)g->facet_count + 1) * sizeof *corner);
+    uint8_t *two_sided = malloc((size_t)g->facet_count + 1);
+
+    NEED(corner && two_sided, STATUS_MEMORY, "no memory for %u facets", g->facet_count);
+    bodies_leave_out(s, corner);
+    const bvh_source source = {.facet_count = g->facet_count,
+                               .vertex_count = g->vertex_count,
+                               .corner = (const uint32_t(*)[4])corner,
+                               .position = (const float(*)[3])g->position,
+                               .two_sided = find_two_sided(s, two_sided) ? two_sided : NULL};
+    TRY(bvh_cache_build(out, &source));
+out:
+    free(two_sided);
+    free(corner);
+    return rc;
+}
+
 static status open_rays(render *r)
 {
     status rc = STATUS_OK;
@@ -37,17 +71,13 @@ static status open_rays(render *r)
     const geometry *g = s->shape;
     const shape_factor_reading reading = s->thesis ? SHAPE_FACTOR_THESIS : SHAPE_FACTOR_COSINE;
     bvh *tree = NULL;
-    uint32_t(*corner)[4] = malloc(((size_t)g->facet_count + 1) * sizeof *corner);
 
-    NEED(corner, STATUS_MEMORY, "no memory for %u facets", g->facet_count);
-    bodies_leave_out(s, corner);
     TRY(bodies_open(&r->shared.bodies, r->shared.dev, s));
-    const bvh_source source = {.facet_count = g->facet_count,
-                               .vertex_count = g->vertex_count,
-                               .corner = (const uint32_t(*)[4])corner,
-                               .position = (const float(*)[3])g->position};
-    TRY(bvh_cache_build(&tree, &source));
+    TRY(build_tree(&tree, s));
     TRY(ray_scene_open(&r->shared.rays, r->shared.dev, tree));
+    /* eq. 2.3.2-6; departs: in exact mode what is opaque stops rays from behind too, but those of the
+     * camera. */
+    ray_scene_set_cull(r->shared.rays, true, s->thesis);
     if (s->ground_material != RECORD_NONE)
         ray_scene_set_ground(r->shared.rays, g->facet_count,
                              (float)(s->ground_z_m - g->origin_m[2]));
@@ -58,7 +88,6 @@ static status open_rays(render *r)
     end_stage(r, "tree");
 out:
     bvh_free(tree);
-    free(corner);
     return rc;
 }
 

@@ -91,6 +91,29 @@ static void both_triangles_of_every_quad_are_in_one_leaf_each(void **state)
     free(t);
 }
 
+static void two_sided_facets_are_there_twice(void **state)
+{
+    (void)state;
+    const float position[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const uint32_t corner[][4] = {{0, 1, 2, UINT32_MAX}, {0, 1, 2, 3}, {0, 1, 2, UINT32_MAX}};
+    const uint8_t two_sided[] = {1, 1, 0};
+    const bvh_source source = {.facet_count = 3,
+                               .vertex_count = 4,
+                               .corner = corner,
+                               .position = position,
+                               .two_sided = two_sided};
+    uint32_t times[3] = {0};
+    bvh *tree = NULL;
+
+    assert_int_equal(bvh_build(&tree, &source), STATUS_OK);
+    walk(bvh_look(tree), 0, times);
+
+    assert_int_equal(times[0], 2);
+    assert_int_equal(times[1], 4);
+    assert_int_equal(times[2], 1);
+    bvh_free(tree);
+}
+
 static void the_box_is_that_of_all_vertices(void **state)
 {
     (void)state;
@@ -264,6 +287,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_triangles_of_every_quad_are_in_one_leaf_each),
+        cmocka_unit_test(two_sided_facets_are_there_twice),
         cmocka_unit_test(the_box_is_that_of_all_vertices),
         cmocka_unit_test(the_same_facets_give_the_same_bytes),
         cmocka_unit_test(nodes_and_blocks_start_on_64_bytes),

@@ -20,9 +20,9 @@ MATERIAL = np.dtype([("before", "f4", 9), ("number", "u4"), ("unused", "u4", 2)]
 class RayWorld:
     lanes = 16  # rays of a work-item
 
-    def __init__(self, opencl, mesh):
+    def __init__(self, opencl, mesh, two_sided=None):
         self.opencl = opencl
-        nodes, blocks, low, high = tree.build(*mesh)
+        nodes, blocks, low, high = tree.build(*mesh, two_sided)
         self.facet_count = len(mesh[0])
         self.nodes, self.blocks = self.copy(nodes), self.copy(blocks)
         self.world = np.zeros(1, WORLD)

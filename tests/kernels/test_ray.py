@@ -211,6 +211,32 @@ def test_culled_facets_are_met_from_the_front_alone(opencl):
     assert np.all(world.trace(inwards)[1] != NONE) and world.occluded(inwards).all()
 
 
+def test_two_sided_facets_are_met_from_behind_though_others_are_culled(opencl):
+    mesh = MESHES["soup"]
+    two_sided = np.arange(len(mesh[0])) % 3 == 0
+    world, twice = RayWorld(opencl, mesh), RayWorld(opencl, mesh, two_sided)
+    twice.world["cull_back"] = 1
+    rays = random_rays(20000, seed=15)
+    a, b, c = (mesh[1][mesh[0][:, k]].astype(np.float64) for k in range(3))
+    normal = np.cross(b - a, c - a)
+
+    # The nearest of all that may be met: rays that meet a facet from behind go on beyond it.
+    facet = np.full(len(rays), NONE)
+    left, at = np.arange(len(rays)), rays.astype(np.float64)
+    while len(left):
+        range_m, met = world.trace(at[left])
+        left, range_m, met = (x[met != NONE] for x in (left, range_m, met))
+        seen = two_sided[met] | ((normal[met] * at[left, 3:]).sum(1) < 0)
+        facet[left[seen]] = met[seen]
+        at[left, :3] += at[left, 3:] * (range_m * (1 + 1e-6) + 1e-6)[:, None]
+        left = left[~seen]
+
+    _, found = twice.trace(rays)
+
+    assert np.count_nonzero(found != facet) <= 20  # 1e-3: steps over facets within 1e-6
+    assert np.array_equal(twice.occluded(rays) == 1, found != NONE)
+
+
 def test_any_hit_says_what_the_nearest_says(opencl):
     world = RayWorld(opencl, MESHES["soup"])
     rays = random_rays(20000, seed=9)

@@ -12,7 +12,7 @@ SOURCES = ["bvh.c", "bvh_binary.c", "polygon.c", "status.c"]
 
 class Source(ctypes.Structure):
     _fields_ = [("facet_count", ctypes.c_uint32), ("vertex_count", ctypes.c_uint32)]
-    _fields_ += [("corner", ctypes.c_void_p), ("position", ctypes.c_void_p)]
+    _fields_ += [(name, ctypes.c_void_p) for name in ("corner", "position", "two_sided")]
 
 
 class Tables(ctypes.Structure):
@@ -36,12 +36,14 @@ def _load():
 _bvh = _load()
 
 
-def build(corner, position):
+def build(corner, position, two_sided=None):
     """Returns node bytes, block bytes, low and high."""
     corner = np.ascontiguousarray(corner, np.uint32)
     position = np.ascontiguousarray(position, np.float32)
     tree = ctypes.c_void_p()
-    source = Source(len(corner), len(position), corner.ctypes.data, position.ctypes.data)
+    sides = None if two_sided is None else np.ascontiguousarray(two_sided, np.uint8)
+    source = Source(len(corner), len(position), corner.ctypes.data, position.ctypes.data,
+                    None if sides is None else sides.ctypes.data)
     code = _bvh.bvh_build(ctypes.byref(tree), ctypes.byref(source))
     assert code == 0
     tables = _bvh.bvh_look(tree).contents
