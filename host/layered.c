@@ -84,6 +84,21 @@ static void fill_ladder(layered_record *out, const column *c)
     out->conductance_w_m2_k[LAYERED_NODES] = (float)(1.0 / (resistance_to(c, c->depth_m) - before));
 }
 
+/* How heat along the facet is spread: by the thickness that nodes have of the front's material. */
+static void fill_lateral_share(layered_record *out, const column *c)
+{
+    const double front_m = c->layer[0].thickness_m;
+    double edge_m = 0.0;
+    double node_m = c->depth_m * (NODE_RATIO - 1.0) / (pow(NODE_RATIO, LAYERED_NODES) - 1.0);
+
+    for (int j = 0; j < LAYERED_NODES; j++) {
+        const double part_m = fmin(node_m, front_m - edge_m);
+        out->lateral_share[j] = (float)(fmax(0.0, part_m) / front_m);
+        edge_m += node_m;
+        node_m *= NODE_RATIO;
+    }
+}
+
 static uint32_t back_of(const layered_matter *matter, const material_record *material)
 {
     switch (matter->back) {
@@ -121,7 +136,9 @@ void layered_fill(layered_record *out, const facet_record *facet, const material
         .resistance_night_s_m = resistance(matter->resistance_night_s_m),
         .film_limit_kg_m2 = (float)FILM_LIMIT_KG_M2,
         .material = facet->material,
+        .lateral_column = facet->lateral_column,
     };
     memcpy(out->normal, facet->normal, sizeof out->normal);
     fill_ladder(out, &c);
+    fill_lateral_share(out, &c);
 }

@@ -72,6 +72,7 @@ typedef struct scene {
     degradation sensor;
     bool thesis;
     scene_thermal thermal;
+    bool lateral_conduction; /* thermal layered: heat passes from facet to facet along a material */
     double hemisphere_zenith_step_deg, hemisphere_azimuth_step_deg;
     size_t input_count;
     scene_input *inputs;

@@ -1,5 +1,6 @@
 #include "temperature.h"
 
+#include "exchange.h"
 #include "facet_sample.h"
 #include "sun_history.h"
 #include "thermal.h"
@@ -12,7 +13,7 @@ enum { FACETS_AT_ONCE = 1 << 14 };
 
 struct temperature {
     device *dev;
-    const facet_record *facet;
+    facet_record *facet; /* shape (facet_count) */
     size_t facet_count;
     device_memory facets, facet_temperature_k;
     thermal *model; /* NULL: temperatures are stated */
@@ -171,6 +172,15 @@ out:
     return rc;
 }
 
+/* Heat between facets; in thesis mode they are in the sun whenever it shines. */
+static status exchange_heat(temperature *t, const scene *s, const ray_scene *rays)
+{
+    const exchange_light light = {rays, t->sun, t->facets};
+
+    if (s->thermal != SCENE_THERMAL_LAYERED || !s->lateral_conduction) return STATUS_OK;
+    return exchange_run(t->dev, s, t->model, s->thesis ? NULL : &light, t->facet);
+}
+
 static status warm_facets(temperature *t, const scene *s, const ray_scene *rays)
 {
     status rc = STATUS_OK;
@@ -180,6 +190,7 @@ static status warm_facets(temperature *t, const scene *s, const ray_scene *rays)
     NEED(facet_k, STATUS_MEMORY, "no memory for %zu facets", t->facet_count);
     if (s->thermal != SCENE_THERMAL_FIXED && s->history) {
         TRY(open_model(t, s));
+        TRY(exchange_heat(t, s, rays));
         TRY(thermal_at_time(t->model, &all, facet_k));
         if (!s->thesis) TRY(warm_area(t, s->shape, rays, facet_k));
     } else {
@@ -200,7 +211,10 @@ status temperature_open(temperature **out, device *dev, const scene *s, const ra
     temperature *t = calloc(1, sizeof *t);
 
     NEED(t, STATUS_MEMORY, "no memory for temperatures");
-    *t = (temperature){.dev = dev, .facet = facet, .facet_count = facet_count, .facets = facets};
+    *t = (temperature){.dev = dev, .facet_count = facet_count, .facets = facets};
+    t->facet = malloc((facet_count + 1) * sizeof *facet);
+    NEED(t->facet, STATUS_MEMORY, "no memory for %zu facets", facet_count);
+    memcpy(t->facet, facet, facet_count * sizeof *facet);
     TRY(open_sun_history(t, s, dimming));
     TRY(warm_facets(t, s, rays));
     *out = t;
@@ -216,6 +230,7 @@ void temperature_free(temperature *t)
     device_release(t->facet_temperature_k);
     thermal_free(t->model);
     sun_history_free(t->sun);
+    free(t->facet);
     free(t);
 }
 

@@ -3,6 +3,7 @@
 #include "../kernels/thermal.h"
 #include "distinct.h"
 #include "sun.h"
+#include "thermal_model.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -10,18 +11,6 @@
 #include <string.h>
 
 enum { LANES = 16 }; /* facets of a work-item */
-
-struct thermal {
-    device *dev;
-    material_record *material;
-    layered_matter *layered; /* NULL: as THERM does it */
-    double mean_air_k;
-    device_memory materials, forcing;
-    device_memory power;      /* shape (steps, power_materials) */
-    uint32_t power_materials; /* 0: no material's power changes */
-    size_t step_count;
-    double step_s, time_h; /* of the image, since the first step */
-};
 
 static status upload_forcing(thermal *t, const forcing_laws *laws, const weather *w,
                              const site *place)
@@ -108,6 +97,7 @@ out:
 void thermal_free(thermal *t)
 {
     if (!t) return;
+    device_release(t->lateral_w_m2);
     device_release(t->power);
     device_release(t->forcing);
     device_release(t->materials);
@@ -124,17 +114,16 @@ typedef struct batch {
     uint32_t word_count, slot_count;
 } batch;
 
-/* The ladders of a batch; facets that state a temperature need none. */
-static void fill_layered(const thermal *t, const batch *b, layered_record *out)
+void thermal_fill_layered(const thermal *t, const facet_record *facet, size_t count,
+                          layered_record *out)
 {
-    for (size_t i = 0; i < b->count; i++) {
-        const facet_record *facet = &b->facet[i];
-        const uint32_t m = facet->material;
-        if (facet->stated_temperature_k > 0.0f) {
-            out[i] = (layered_record){.stated_temperature_k = facet->stated_temperature_k};
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t m = facet[i].material;
+        if (facet[i].stated_temperature_k > 0.0f) {
+            out[i] = (layered_record){.stated_temperature_k = facet[i].stated_temperature_k};
             continue;
         }
-        layered_fill(&out[i], facet, &t->material[m], &t->layered[m], t->mean_air_k);
+        layered_fill(&out[i], &facet[i], &t->material[m], &t->layered[m], t->mean_air_k);
     }
 }
 
@@ -147,7 +136,7 @@ static status upload_batch(const thermal *t, const batch *b, device_memory *out)
     if (!t->layered) return device_allocate(t->dev, out, b->count * sizeof *b->facet, b->facet);
     layered = malloc((b->count + 1) * sizeof *layered);
     NEED(layered, STATUS_MEMORY, "no memory for %zu facets of layers", b->count);
-    fill_layered(t, b, layered);
+    thermal_fill_layered(t, b->facet, b->count, layered);
     TRY(device_allocate(t->dev, out, b->count * sizeof *layered, layered));
 out:
     free(layered);
@@ -173,7 +162,8 @@ static status compute(const thermal *t, const batch *b, thermal_span span, float
     TRY(device_allocate(t->dev, &temperature_k, bytes, NULL));
     if (t->layered)
         TRY(device_run(t->dev, "layered", shape, ARG(span), ARG(facets), ARG(t->forcing), ARG(lit),
-                       ARG(t->power_materials), ARG(t->power), ARG(temperature_k)));
+                       ARG(t->power_materials), ARG(t->power), ARG(t->lateral_columns),
+                       ARG(t->lateral_w_m2), ARG(temperature_k)));
     else
         TRY(device_run(t->dev, "thermal", shape, ARG(span), ARG(facets), ARG(t->materials),
                        ARG(t->forcing), ARG(lit), ARG(t->power_materials), ARG(t->power),

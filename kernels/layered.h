@@ -1,9 +1,10 @@
 /* Layered: the heat balance of one facet of several layers, beyond the thesis' THERM: unequal nodes,
- * a condition behind, evaporation. Backward Euler, relinearised each sub-step. Facets know nothing
- * of each other.
+ * a condition behind, evaporation. Backward Euler, relinearised each sub-step.
  *   surroundings, sky, rain   as thermal.h has them; the whole front is exposed
  *   evaporation               rho L (q*(Ts) - qa) / (ra + rs), ra = rho cp / h; none from dry matter
  *   film                      rain that stays, up to a limit, evaporates without rs
+ *   along the facet           heat from its neighbours is spread over the nodes of its own material by
+ *                             their thickness
  *   start                     the first day over and over until no node moves by .01 K */
 #ifndef LAYERED_KERNEL_H
 #define LAYERED_KERNEL_H
@@ -34,9 +35,10 @@ typedef struct layered_record {
     float film_limit_kg_m2;
     float stated_temperature_k; /* 0: to be computed */
     uint material;
-    uint unused;
+    uint lateral_column; /* of rows of heat along the facet, counted from 1; 0: none */
+    float lateral_share[LAYERED_NODES]; /* of that heat, for each node; sum 1 */
 } layered_record;
-RECORD_SIZE(layered_record, 128);
+RECORD_SIZE(layered_record, 160);
 
 typedef struct layered_body {
     thermal_body face; /* capacity and conductance are not used */
@@ -44,7 +46,9 @@ typedef struct layered_body {
     lanes is_stated, back_k;
     lanes day_s_m, night_s_m, film_limit;
     lanes stated_k;
+    lanes lateral_share[LAYERED_NODES];
     uint material[LANES_WIDTH];
+    uint lateral_column[LANES_WIDTH];
 } layered_body;
 
 typedef struct layered_state {
@@ -83,7 +87,10 @@ static inline void layered_set_body(layered_body *body, int lane, const layered_
     LAYERED_SET(body, night_s_m, lane, record->resistance_night_s_m);
     LAYERED_SET(body, film_limit, lane, record->film_limit_kg_m2);
     LAYERED_SET(body, stated_k, lane, record->stated_temperature_k);
+    for (int i = 0; i < LAYERED_NODES; i++)
+        LAYERED_SET(body, lateral_share[i], lane, record->lateral_share[i]);
     body->material[lane] = record->material;
+    body->lateral_column[lane] = record->lateral_column;
 }
 
 static inline layered_air layered_air_of(forcing_record now)
@@ -155,58 +162,120 @@ static inline layered_elimination layered_eliminate(const layered_body *body, la
     return e;
 }
 
-/* One implicit step; film and face change with it. */
+/* What the front takes in, linear about its temperature at the start of a step. */
+typedef struct layered_front {
+    thermal_flux all, latent;
+    lanes share; /* of what reaches the face that goes on to node 0 */
+} layered_front;
+
+static inline layered_front layered_front_of(const layered_state *s, const layered_body *body,
+                                             const thermal_load *load, layered_air air)
+{
+    layered_front front;
+
+    front.all = thermal_front_flux(&body->face, load, s->front_k);
+    front.latent = layered_latent(body, air, s->front_k, s->film_kg_m2);
+    front.all.w_m2 -= front.latent.w_m2;
+    front.all.w_m2_k += front.latent.w_m2_k;
+    front.share = body->conductance[0] / (body->conductance[0] + front.all.w_m2_k);
+    return front;
+}
+
+static inline void layered_step_film(layered_state *s, const layered_body *body,
+                                     const layered_front *front, lanes old_front_k, layered_air air,
+                                     float step_s)
+{
+    const lanes none = 0.0f;
+    const lanes lost_w_m2 = front->latent.w_m2 + front->latent.w_m2_k * (s->front_k - old_front_k);
+    const lanes vaporisation = 2.501e6f - 2361.0f * (old_front_k - ZERO_CELSIUS_K);
+    const lanes film = s->film_kg_m2 +
+                       step_s * air.rain_kg_m2_s * fmax(body->face.normal[2], none) -
+                       (s->film_kg_m2 > none ? step_s * lost_w_m2 / vaporisation : none);
+
+    s->film_kg_m2 = fmin(fmax(film, none), body->film_limit);
+}
+
+/* One implicit step; film and face change with it.
+ *   lateral_w_m2   heat that comes along the facet */
 static inline void layered_step(layered_state *s, const layered_body *body,
                                 const layered_elimination *e, const thermal_load *load,
-                                layered_air air, float step_s)
+                                layered_air air, lanes lateral_w_m2, float step_s)
 {
     const int last = LAYERED_NODES - 1;
-    const lanes none = 0.0f, behind = body->conductance[LAYERED_NODES];
-    const lanes before = body->conductance[0];
-    const thermal_flux dry = thermal_front_flux(&body->face, load, s->front_k);
-    const thermal_flux latent = layered_latent(body, air, s->front_k, s->film_kg_m2);
+    const lanes behind = body->conductance[LAYERED_NODES], before = body->conductance[0];
+    const layered_front front = layered_front_of(s, body, load, air);
     const thermal_flux back = thermal_back_flux(&body->face, load, s->back_k);
-    const lanes front_w_m2 = dry.w_m2 - latent.w_m2, slope = dry.w_m2_k + latent.w_m2_k;
-    const lanes share = before / (before + slope);
+    const lanes none = 0.0f, old_front_k = s->front_k;
     const lanes from_back = body->is_stated != none
                                 ? behind * (body->back_k - s->node_k[last])
                                 : e->passed[LAYERED_NODES] *
                                       (back.w_m2 + e->back_slope * (s->back_k - s->node_k[last]));
-    const lanes old_front_k = s->front_k;
     lanes right[LAYERED_NODES], rise;
 
-    right[last] = body->conductance[last] * (s->node_k[last - 1] - s->node_k[last]) + from_back;
+    right[last] = body->conductance[last] * (s->node_k[last - 1] - s->node_k[last]) + from_back +
+                  body->lateral_share[last] * lateral_w_m2;
     for (int j = last - 1; j > 0; j--)
         right[j] = body->conductance[j] * (s->node_k[j - 1] - s->node_k[j]) +
                    body->conductance[j + 1] * (s->node_k[j + 1] - s->node_k[j]) +
-                   e->passed[j + 1] * right[j + 1];
-    right[0] = body->conductance[1] * (s->node_k[1] - s->node_k[0]) + e->passed[1] * right[1] +
-               share * (front_w_m2 + slope * (s->front_k - s->node_k[0]));
-    rise = right[0] / (e->front_taken + share * slope);
+                   body->lateral_share[j] * lateral_w_m2 + e->passed[j + 1] * right[j + 1];
+    right[0] = body->conductance[1] * (s->node_k[1] - s->node_k[0]) +
+               body->lateral_share[0] * lateral_w_m2 + e->passed[1] * right[1] +
+               front.share * (front.all.w_m2 + front.all.w_m2_k * (s->front_k - s->node_k[0]));
+    rise = right[0] / (e->front_taken + front.share * front.all.w_m2_k);
     s->node_k[0] += rise;
     for (int j = 1; j <= last; j++) {
         rise = right[j] * e->inverse[j] + e->passed[j] * rise;
         s->node_k[j] += rise;
     }
-    s->front_k += (front_w_m2 - before * (s->front_k - s->node_k[0])) * share / before;
+    s->front_k += (front.all.w_m2 - before * (s->front_k - s->node_k[0])) * front.share / before;
     s->back_k = body->is_stated != none
                     ? body->back_k
                     : s->back_k + (back.w_m2 - behind * (s->back_k - s->node_k[last])) *
                                       e->passed[LAYERED_NODES] / behind;
-    const lanes lost_w_m2 = latent.w_m2 + latent.w_m2_k * (s->front_k - old_front_k);
-    const lanes vaporisation = 2.501e6f - 2361.0f * (old_front_k - ZERO_CELSIUS_K);
-    const lanes film = s->film_kg_m2 +
-                       step_s * air.rain_kg_m2_s * fmax(body->face.normal[2], none) -
-                       (s->film_kg_m2 > none ? step_s * lost_w_m2 / vaporisation : none);
-    s->film_kg_m2 = fmin(fmax(film, none), body->film_limit);
+    layered_step_film(s, body, &front, old_front_k, air, step_s);
 }
 
-/* Goes from one record of the weather to the next. Humidity, rain and day are held like the sun. */
+/* Temperature that goes with heat along the facet: the mean over the nodes of its own material. */
+static inline lanes layered_lateral_k(const layered_state *s, const layered_body *body)
+{
+    lanes sum = 0.0f;
+
+    for (int j = 0; j < LAYERED_NODES; j++) sum += body->lateral_share[j] * s->node_k[j];
+    return sum;
+}
+
+/* Rise of that temperature in a step for each W m-2 that comes along the facet. */
+static inline lanes layered_lateral_gain(const layered_body *body, const layered_elimination *e,
+                                         const layered_front *front)
+{
+    lanes right[LAYERED_NODES], rise, sum;
+
+    right[LAYERED_NODES - 1] = body->lateral_share[LAYERED_NODES - 1];
+    for (int j = LAYERED_NODES - 2; j >= 0; j--)
+        right[j] = body->lateral_share[j] + e->passed[j + 1] * right[j + 1];
+    rise = right[0] / (e->front_taken + front->share * front->all.w_m2_k);
+    sum = body->lateral_share[0] * rise;
+    for (int j = 1; j < LAYERED_NODES; j++) {
+        rise = right[j] * e->inverse[j] + e->passed[j] * rise;
+        sum += body->lateral_share[j] * rise;
+    }
+    return sum;
+}
+
+/* Sub-steps of a step of the weather: an even number. */
+static inline int layered_sub_steps(float step_s)
+{
+    return 2 * (int)ceil(0.5f * step_s / THERMAL_SUB_STEP_S);
+}
+
+/* Goes from one record of the weather to the next. Humidity, rain and day are held like the sun.
+ *   lateral_w_m2   heat along the facet in the first and in the second half */
 static inline void layered_advance(layered_state *state, const layered_body *body,
                                    const thermal_load *before, const thermal_load *after,
-                                   layered_air air_before, layered_air air_after, float step_s)
+                                   layered_air air_before, layered_air air_after,
+                                   const lanes lateral_w_m2[2], float step_s)
 {
-    const int count = 2 * (int)ceil(0.5f * step_s / THERMAL_SUB_STEP_S);
+    const int count = layered_sub_steps(step_s);
     const thermal_flux back = thermal_back_flux(&body->face, before, state->back_k);
     const layered_elimination e = layered_eliminate(body, back.w_m2_k, step_s / (float)count);
 
@@ -214,7 +283,7 @@ static inline void layered_advance(layered_state *state, const layered_body *bod
         const thermal_load load = thermal_load_between(before, after, (float)(i + 1) / (float)count,
                                                        thermal_sub_direct(before, after, i, count));
         layered_step(state, body, &e, &load, 2 * i < count ? air_before : air_after,
-                     step_s / (float)count);
+                     lateral_w_m2[2 * i >= count], step_s / (float)count);
     }
 }
 

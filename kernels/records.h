@@ -56,9 +56,21 @@ typedef struct facet_record {
     float power_w_m2;           /* self-generated */
     float stated_temperature_k; /* 0: to be computed */
     uint two_sided;             /* 1: both sides are seen and lit */
-    uint unused[2];
+    uint lateral_column;        /* see layered.h */
+    uint unused;
 } facet_record;
 RECORD_SIZE(facet_record, 48);
+
+/* What a facet conducts along its material to the facets beyond its edges; conduction.h. */
+typedef struct conduction_record {
+    uint neighbour[4]; /* RECORD_NONE: none */
+    float link_w_k[4]; /* to each of them */
+    float stated_w_k;  /* to neighbours that keep a temperature, */
+    float stated_k;    /* and their mean temperature */
+    float area_m2;
+    uint unused;
+} conduction_record;
+RECORD_SIZE(conduction_record, 48);
 
 /* A material as thermal and radiometry see it. */
 typedef struct material_record {

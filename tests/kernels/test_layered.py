@@ -18,7 +18,7 @@ LAYERED = np.dtype([
     ("absorptance", "f4"), ("emissivity", "f4"), ("power_w_m2", "f4"), ("two_sided", "u4"),
     ("back", "u4"), ("back_k", "f4"), ("resistance_day_s_m", "f4"), ("resistance_night_s_m", "f4"),
     ("film_limit_kg_m2", "f4"), ("stated_temperature_k", "f4"),
-    ("material", "u4"), ("unused", "u4")])
+    ("material", "u4"), ("lateral_column", "u4"), ("lateral_share", "f4", 8)])
 
 
 def ladder(layers, ratio=1.5):
@@ -69,7 +69,8 @@ def layered(opencl):
         kernel(opencl.queue, ((len(facets) + width - 1) // width,), None, span[0], *memory, None,
                np.uint32(0 if power is None else power.shape[1]),
                None if power is None else cl.Buffer(
-                   opencl.context, cl.mem_flags.COPY_HOST_PTR, hostbuf=power), target)
+                   opencl.context, cl.mem_flags.COPY_HOST_PTR, hostbuf=power),
+               np.uint32(0), None, target)
         cl.enqueue_copy(opencl.queue, out, target)
         return out.astype(float)
 
@@ -118,7 +119,7 @@ def test_nafems_t3_a_bar_follows_a_sine_at_its_end(opencl):
         for (int i = 1; i <= 640; i++) {{
             f.air_temperature_k = 273.15f + 100 * sin(PI_F * 0.05f * i / 40);
             const thermal_load load = thermal_load_of(&body.face, f, 1.0f);
-            layered_step(&s, &body, &e, &load, layered_air_of(f), 0.05f);
+            layered_step(&s, &body, &e, &load, layered_air_of(f), 0.0f, 0.05f);
         }}
         for (int j = 0; j < 8; j++) out[j] = s.node_k[j];
     }}"""

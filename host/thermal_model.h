@@ -1,0 +1,26 @@
+/* Thermal model: weather and matter on the device, as `thermal` and `exchange` work with them. */
+#ifndef THERMAL_MODEL_H
+#define THERMAL_MODEL_H
+
+#include "thermal.h"
+
+struct thermal {
+    device *dev;
+    material_record *material;
+    layered_matter *layered; /* NULL: as THERM does it */
+    double mean_air_k;
+    device_memory materials, forcing;
+    device_memory power;      /* shape (steps, power_materials) */
+    uint32_t power_materials; /* 0: no material's power changes */
+    size_t step_count;
+    double step_s, time_h;      /* of the image, since the first step */
+    device_memory lateral_w_m2; /* shape (2 steps, lateral_columns): heat along facets */
+    uint32_t lateral_columns;   /* 0: none */
+};
+
+/* Fills the ladders of facets; those that state a temperature need none.
+ *   out   shape (count) */
+void thermal_fill_layered(const thermal *t, const facet_record *facet, size_t count,
+                          layered_record *out);
+
+#endif
