@@ -90,7 +90,9 @@ status ray_scene_primary(const ray_scene *scene, const camera_record *camera, ui
     const uint32_t side = device_describe(scene->dev)->ray_lanes == 1 ? 1 : 4;
     const uint32_t rows = (first_pixel + count + columns - 1) / columns - first_pixel / columns;
     const device_shape shape =
-        device_ray_shape(scene->dev, (size_t)columns * side, (rows + side - 1) / side);
+        camera->strata > 1
+            ? device_ray_shape(scene->dev, count, 1)
+            : device_ray_shape(scene->dev, (size_t)columns * side, (rows + side - 1) / side);
     world_record world = scene->world;
 
     world.cull_back = scene->camera_culls;

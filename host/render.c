@@ -152,6 +152,8 @@ void render_change_look(render *r, const render_look *look)
     for (int i = 0; i < 3; i++) r->shared.frame.sun[i] = (float)direction[i];
     r->shared.camera = view_camera(&look->camera, s->shape->origin_m);
     r->shared.air.is_level = r->shared.camera.position[2] < s->shape->high[2];
+    r->shared.camera.strata = look->is_coarse ? 1 : s->strata;
+    r->shared.camera.seed = s->seed;
     r->shared.frame.columns = (uint32_t)look->camera.columns;
     r->shared.frame.thesis = s->thesis || look->is_coarse;
     r->shared.is_coarse = look->is_coarse;
@@ -212,7 +214,9 @@ const render_stage *render_stages(const render *r, size_t *out_count)
 
 uint32_t render_tile_limit(const render *r)
 {
-    return render_tile_most(&r->shared);
+    const uint32_t most = render_tile_most(&r->shared) / render_tile_samples(&r->shared);
+
+    return most > 0 ? most : 1;
 }
 
 static bool wants_parts(const render *r, float *const *values)
@@ -222,13 +226,27 @@ static bool wants_parts(const render *r, float *const *values)
     return false;
 }
 
+/* Bit k: truth plane k is categorical. */
+static uint32_t categorical_planes(const render *r)
+{
+    uint32_t bits = 0;
+
+    for (size_t i = 0; i < r->plane_count; i++)
+        if (!r->planes[i].is_of_band && r->planes[i].plane.categorical)
+            bits |= 1u << r->planes[i].source;
+    return bits;
+}
+
 status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float *const *values)
 {
     status rc = STATUS_OK;
+    const uint32_t samples = render_tile_samples(&r->shared);
+    const bool parts = wants_parts(r, values);
     render_tile_memory t;
 
-    TRY(render_tile_open(&t, &r->shared, first_pixel, pixel_count));
-    TRY(render_tile_compute(&t, &r->shared, wants_parts(r, values)));
+    TRY(render_tile_open(&t, &r->shared, first_pixel * samples, pixel_count * samples));
+    TRY(render_tile_compute(&t, &r->shared, parts));
+    if (samples > 1) TRY(render_tile_average(&t, &r->shared, categorical_planes(r), parts));
     for (size_t i = 0; i < r->plane_count; i++) {
         const render_plane *p = &r->planes[i];
         const device_memory from = p->is_of_band ? t.band_planes : t.truth_planes;
@@ -247,32 +265,52 @@ const spectra *render_spectra(const render *r)
     return r->shared.tables.bands;
 }
 
-status render_pixel_terms(render *r, uint32_t pixel, float *out)
+/* The spectra of one sample.
+ *   out   shape (count) */
+static status sample_terms(const render *r, uint32_t sample, size_t count, float *out)
 {
     status rc = STATUS_OK;
     device *dev = r->shared.dev;
-    const size_t bytes = (size_t)SENSOR_TERMS * r->shared.frame.sample_count * sizeof *out;
     render_tile_memory t;
 
-    TRY(render_tile_open(&t, &r->shared, pixel, 1));
-    TRY(device_allocate(dev, &t.terms, bytes, NULL));
+    TRY(render_tile_open(&t, &r->shared, sample, 1));
+    TRY(device_allocate(dev, &t.terms, count * sizeof *out, NULL));
     TRY(render_tile_compute(&t, &r->shared, true));
-    TRY(device_download(dev, t.terms, 0, bytes, out));
+    TRY(device_download(dev, t.terms, 0, count * sizeof *out, out));
 out:
     render_tile_free(&t);
+    return rc;
+}
+
+status render_pixel_terms(render *r, uint32_t pixel, double *out)
+{
+    status rc = STATUS_OK;
+    const uint32_t samples = render_tile_samples(&r->shared);
+    const size_t count = (size_t)SENSOR_TERMS * r->shared.frame.sample_count;
+    float *one = malloc(count * sizeof *one);
+
+    NEED(one, STATUS_MEMORY, "no memory for the spectra of a pixel");
+    for (size_t i = 0; i < count; i++) out[i] = 0.0;
+    for (uint32_t k = 0; k < samples; k++) {
+        TRY(sample_terms(r, pixel * samples + k, count, one));
+        for (size_t i = 0; i < count; i++) out[i] += (double)one[i] / samples;
+    }
+out:
+    free(one);
     return rc;
 }
 
 status render_pixel_day(render *r, uint32_t pixel, temperature_day *out)
 {
     status rc = STATUS_OK;
+    camera_record camera = r->shared.camera;
     device_memory hit = NULL;
     hit_record met;
 
     *out = (temperature_day){0};
+    camera.strata = 1;
     TRY(device_allocate(r->shared.dev, &hit, sizeof met, NULL));
-    TRY(ray_scene_primary(r->shared.rays, &r->shared.camera, r->shared.frame.columns, pixel, 1,
-                          hit));
+    TRY(ray_scene_primary(r->shared.rays, &camera, r->shared.frame.columns, pixel, 1, hit));
     TRY(device_download(r->shared.dev, hit, 0, sizeof met, &met));
     if (met.facet != RECORD_NONE)
         TRY(temperature_day_of(r->shared.warmth, r->shared.rays, hit, out));

@@ -23,7 +23,8 @@ void render_free(render *r);
 /* The planes of the scene, radiances first; they belong to the render. */
 const render_plane *render_planes(const render *r, size_t *out_count);
 
-/* The most pixels that a tile should hold: what they need on the device stays below 128 MiB. */
+/* The most pixels that a tile should hold: what they need on the device stays below 128 MiB, whatever
+ * the number of their samples. */
 uint32_t render_tile_limit(const render *r);
 
 /* Computes pixels first_pixel .. first_pixel + pixel_count - 1, counted along the rows. The values
@@ -46,16 +47,17 @@ render_look render_stated_look(const scene *s);
 /* Looks in another way from the next tile on. Temperatures stay those of the scene's time. */
 void render_change_look(render *r, const render_look *look);
 
-/* The last 24 hours, up to the scene's time, of what a pixel of the present look shows. A pixel that
- * meets nothing has a day of no steps. */
+/* The last 24 hours, up to the scene's time, of what the middle of a pixel of the present look shows.
+ * Where it meets nothing the day has no steps. */
 status render_pixel_day(render *r, uint32_t pixel, temperature_day *out);
 
 /* The samples of all bands, see spectra.h; they belong to the render. */
 const spectra *render_spectra(const render *r);
 
-/* The spectra that a pixel's planes are integrals of, by the kernel that makes them.
+/* The spectra that a pixel's planes are integrals of, by the kernel that makes them; of several samples
+ * the mean.
  *   out   shape (SENSOR_TERMS, sample_count), W m-2 sr-1 um-1, tau2 1; the caller allocates */
-status render_pixel_terms(render *r, uint32_t pixel, float *out);
+status render_pixel_terms(render *r, uint32_t pixel, double *out);
 
 /* Seconds of the stages before the first tile, on the host. */
 typedef struct render_stage {

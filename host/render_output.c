@@ -11,9 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A device without room for a tile gets smaller ones, down to this many pixels. */
-enum { TILE_LEAST = 1 << 8 };
-
 typedef struct writing {
     const scene *s;
     const render_output_options *options;
@@ -157,7 +154,7 @@ static status render_pixels(writing *w)
         const uint32_t count = all - done < most ? (uint32_t)(all - done) : most;
         NEED(!*w->options->stop, STATUS_INTERRUPTED, "interrupted");
         rc = render_tile(w->r, (uint32_t)done, count, w->values);
-        if (rc == STATUS_MEMORY && most > TILE_LEAST) {
+        if (rc == STATUS_MEMORY && most > 1) {
             most /= 2;
             continue;
         }

@@ -42,6 +42,7 @@ static const plane_kind band_kinds[BAND_PLANES] = {
     {"reflected_background_%s", radiance_unit, false},
     {"path_%s", radiance_unit, false},
     {"transmission_%s", "1", false},
+    {"stderr_%s", radiance_unit, false},
 };
 
 static render_plane truth_plane(const scene *s, uint32_t kind)
@@ -61,7 +62,7 @@ static render_plane band_plane(const scene *s, uint32_t index, uint32_t kind, do
     render_plane p = {.source = index * BAND_PLANES + kind,
                       .is_of_band = true,
                       .is_radiance = kind == 0,
-                      .is_part = kind >= BAND_PARTS,
+                      .is_part = kind >= BAND_PARTS && kind < BAND_PARTS + RADIANCE_PARTS,
                       .plane = {.unit = k->unit}};
 
     snprintf(p.name, sizeof p.name, k->name, s->bands[index].name);
@@ -86,7 +87,8 @@ status render_plane_list(render_plane **out, size_t *out_count, const scene *s,
         list[n++] = band_plane(s, b, 0, centre_um[b], width_um[b]);
     for (uint32_t k = 0; k < TRUTH_PLANES + SUN_PLANES; k++) list[n++] = truth_plane(s, k);
     for (uint32_t b = 0; b < s->band_count; b++)
-        for (uint32_t k = 1; k < BAND_PLANES; k++) list[n++] = band_plane(s, b, k, 0.0, 0.0);
+        for (uint32_t k = 1; k < BAND_PLANES; k++)
+            if (k != BAND_STDERR || s->strata > 1) list[n++] = band_plane(s, b, k, 0.0, 0.0);
     for (size_t i = 0; i < n; i++) list[i].plane.name = list[i].name;
     *out = list;
     *out_count = n;

@@ -31,7 +31,7 @@ typedef struct probe_sample {
 typedef struct probe {
     const scene *s;
     uint32_t row_length;
-    float *value; /* shape (SENSOR_TERMS, row_length) */
+    double *value; /* shape (SENSOR_TERMS, row_length) */
     probe_sample *sample;
     size_t count;
 } probe;
@@ -89,7 +89,7 @@ static status write_table(const probe *p, output_folder *folder, const char *nam
         const probe_sample *at = &p->sample[i];
         fprintf(file, "%s,%.9g,%.9g", p->s->bands[at->band].name, at->wavelength_um, at->weight_um);
         for (size_t k = 0; k < SENSOR_TERMS; k++)
-            fprintf(file, ",%.9g", (double)p->value[k * p->row_length + at->source]);
+            fprintf(file, ",%.9g", p->value[k * p->row_length + at->source]);
         fputc('\n', file);
     }
     NEED(fflush(file) == 0 && !ferror(file), STATUS_FILE, "%s: writing failed: %s",
@@ -127,7 +127,7 @@ static size_t lay_out(const probe *p, double *out)
         }
         out[count] = at->wavelength_um;
         for (size_t k = 0; k < SENSOR_TERMS; k++)
-            out[(k + 1) * room + count] = (double)p->value[k * p->row_length + at->source];
+            out[(k + 1) * room + count] = p->value[k * p->row_length + at->source];
         count++;
         end_um = fmax(end_um, at->band_end_um);
     }

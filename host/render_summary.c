@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { STAGE_LIMIT = 64, SETTING_COUNT = 5 };
+enum { STAGE_LIMIT = 64, SETTING_COUNT = 7 };
 
 typedef struct lists {
     render_report_band *bands;
@@ -100,6 +100,8 @@ status render_summary_write(output_folder *folder, const char *name, const rende
         {"hemisphere_step_deg.zenith", NULL, s->hemisphere_zenith_step_deg},
         {"hemisphere_step_deg.azimuth", NULL, s->hemisphere_azimuth_step_deg},
         {"radiance", s->bands[0].is_mean ? "mean" : "band", 0.0},
+        {"samples_per_pixel", NULL, (double)s->strata * s->strata},
+        {"seed", NULL, s->seed},
         {"sensor.seed", NULL, s->sensor.seed},
         {"sensor.frame", NULL, s->sensor.frame}};
 

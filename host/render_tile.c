@@ -11,6 +11,11 @@ static uint32_t body_words(const render_shared *r)
            temperature_history_words(r->warmth);
 }
 
+uint32_t render_tile_samples(const render_shared *r)
+{
+    return r->camera.strata > 1 ? r->camera.strata * r->camera.strata : 1;
+}
+
 uint32_t render_tile_most(const render_shared *r)
 {
     const uint64_t words =
@@ -171,5 +176,38 @@ status render_tile_compute(const render_tile_memory *t, const render_shared *r, 
                                   t->history, t->temperature_k, t->truth_planes));
     TRY(colour(t, r, wants_parts));
 out:
+    return rc;
+}
+
+static void swap(device_memory *one, device_memory *other)
+{
+    const device_memory kept = *one;
+
+    *one = *other;
+    *other = kept;
+}
+
+status render_tile_average(render_tile_memory *t, const render_shared *r, uint32_t categorical,
+                           bool wants_parts)
+{
+    status rc = STATUS_OK;
+    const uint32_t per_pixel = render_tile_samples(r), pixels = t->count / per_pixel;
+    const uint32_t parts = wants_parts;
+    const uint32_t truth_count = TRUTH_PLANES + SUN_PLANES, band_count = r->s->band_count;
+    device_memory truth = NULL, bands = NULL;
+
+    TRY(device_allocate(r->dev, &truth, (size_t)pixels * truth_count * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &bands, (size_t)pixels * band_count * BAND_PLANES * sizeof(float),
+                        NULL));
+    TRY(device_run(r->dev, "truth_mean", shape2(pixels, truth_count), ARG(pixels), ARG(per_pixel),
+                   ARG(categorical), ARG(t->truth_planes), ARG(truth)));
+    TRY(device_run(r->dev, "band_mean", shape2(pixels, band_count), ARG(pixels), ARG(per_pixel),
+                   ARG(parts), ARG(r->tables.band_records), ARG(r->tables.ln_radiance),
+                   ARG(t->band_planes), ARG(bands)));
+    swap(&t->truth_planes, &truth);
+    swap(&t->band_planes, &bands);
+out:
+    device_release(bands);
+    device_release(truth);
     return rc;
 }

@@ -38,6 +38,9 @@ typedef struct render_tile_memory {
 /* The most pixels that a tile should hold: see render_tile_limit. */
 uint32_t render_tile_most(const render_shared *r);
 
+/* Samples of a pixel; where there are several, what follows counts them, and not pixels. */
+uint32_t render_tile_samples(const render_shared *r);
+
 /* Takes memory for pixels first .. first + count - 1, but for terms. After a failure too,
  * render_tile_free is due. */
 status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t first,
@@ -48,5 +51,10 @@ void render_tile_free(render_tile_memory *t);
  * band_planes, shape (band_count, BAND_PLANES, count).
  *   wants_parts   the parts of the radiance too */
 status render_tile_compute(const render_tile_memory *t, const render_shared *r, bool wants_parts);
+
+/* Puts planes of pixels in the place of those of their samples; the tile holds whole pixels.
+ *   categorical   bit k: truth plane k holds numbers of things */
+status render_tile_average(render_tile_memory *t, const render_shared *r, uint32_t categorical,
+                           bool wants_parts);
 
 #endif

@@ -71,6 +71,8 @@ typedef struct scene {
     band *bands; /* shape (band_count) */
     degradation sensor;
     bool thesis;
+    uint32_t strata; /* a pixel is the mean of so many samples across and down; 1: its middle */
+    uint32_t seed;   /* of random numbers */
     scene_thermal thermal;
     bool lateral_conduction; /* thermal layered: heat passes from facet to facet along a material */
     double hemisphere_zenith_step_deg, hemisphere_azimuth_step_deg;

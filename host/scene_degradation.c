@@ -1,21 +1,6 @@
 #include "scene_parts.h"
 
-#include <math.h>
-
 static const double LARGEST = 1e30;
-
-/* A whole number; 0 and above. */
-static bool read_whole(scene_table *t, const char *key, double low, double high, double *out)
-{
-    double value = 0.0;
-
-    if (!scene_table_number(t, key, low, high, &value)) return false;
-    *out = value;
-    if (value == floor(value)) return true;
-    scene_fail(t->reader, toml_node_get(t->node, key),
-               "sensor.%s: found %g, expected a whole number", key, value);
-    return false;
-}
 
 /* Two keys of which neither means anything without the other. */
 static void read_pair(scene_table *t, const char *one, double *out_one, const char *other,
@@ -39,7 +24,7 @@ static void read_spread(scene_table *t, degradation *d)
     scene_table_number(t, "motion_deg", -360.0, 360.0, &d->motion_deg);
     read_pair(t, "airy_f_number", &d->airy_f_number, "pixel_pitch_um", &d->pixel_pitch_um, 1e4);
     if (scene_table_file(t, "psf", &path)) scene_took(t->reader, psf_read(&d->table, path));
-    read_whole(t, "detector_px", 1.0, PSF_REACH, &step);
+    scene_table_whole(t, "detector_px", 1.0, PSF_REACH, &step);
     d->step = (int)step;
 }
 
@@ -89,11 +74,11 @@ void scene_read_degradation(scene_reader *reader)
     d->step = 1;
     if (!t.node) return;
     d->is_wanted = true;
-    read_whole(&t, "seed", 0.0, UINT32_MAX, &seed);
-    read_whole(&t, "frame", 0.0, UINT32_MAX, &frame);
+    scene_table_whole(&t, "seed", 0.0, UINT32_MAX, &seed);
+    scene_table_whole(&t, "frame", 0.0, UINT32_MAX, &frame);
     read_spread(&t, d);
     read_noise(&t, d);
-    if (read_whole(&t, "bits", 1.0, 24.0, &bits)) check_gains(reader, node);
+    if (scene_table_whole(&t, "bits", 1.0, 24.0, &bits)) check_gains(reader, node);
     d->seed = (uint32_t)seed;
     d->frame = (uint32_t)frame;
     d->bits = (int)bits;

@@ -7,7 +7,7 @@
 
 static const double FARTHEST_M = 1e9;
 
-enum { PIXEL_LIMIT = 1 << 20, BAND_LIMIT = 4096 };
+enum { PIXEL_LIMIT = 1 << 20, BAND_LIMIT = 4096, SAMPLE_LIMIT = 1024 };
 
 static void read_pixels(scene_table *t, view *camera)
 {
@@ -252,6 +252,24 @@ static void read_hemisphere(scene_reader *reader, const toml_node *node)
     scene_table_close(&t);
 }
 
+static void read_samples(scene_table *t)
+{
+    scene *s = t->reader->s;
+    const toml_node *node = scene_table_node(t, "samples_per_pixel");
+    double samples = 1.0, seed = 0.0;
+
+    s->strata = 1;
+    if (scene_table_whole(t, "seed", 0.0, UINT32_MAX, &seed)) s->seed = (uint32_t)seed;
+    if (!scene_table_whole(t, "samples_per_pixel", 1.0, SAMPLE_LIMIT, &samples)) return;
+    s->strata = (uint32_t)lround(sqrt(samples));
+    if (s->strata * s->strata != (uint32_t)samples)
+        scene_fail(t->reader, node, "%s: found %g, expected a square number: 1, 4, 9 .. %d",
+                   toml_node_name(node), samples, SAMPLE_LIMIT);
+    else if (samples * s->camera.columns * s->camera.rows > UINT32_MAX)
+        scene_fail(t->reader, node, "%s: %d x %d pixels of %g samples are more than %u",
+                   toml_node_name(node), s->camera.columns, s->camera.rows, samples, UINT32_MAX);
+}
+
 void scene_read_render(scene_reader *reader)
 {
     static const char *const modes[] = {"exact", "thesis"};
@@ -273,5 +291,6 @@ void scene_read_render(scene_reader *reader)
     s->hemisphere_azimuth_step_deg = 30.0;
     for (uint32_t i = 0; i < s->band_count; i++) s->bands[i].is_mean = radiance == 1;
     if (step) read_hemisphere(reader, step);
+    read_samples(&t);
     scene_table_close(&t);
 }

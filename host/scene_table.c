@@ -1,6 +1,7 @@
 #include "scene_table.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -77,6 +78,19 @@ bool scene_table_number(scene_table *t, const char *key, double low, double high
     if (!in_range(t, node, value, low, high)) return false;
     *out = value;
     return true;
+}
+
+bool scene_table_whole(scene_table *t, const char *key, double low, double high, double *out)
+{
+    double value = 0.0;
+
+    if (!scene_table_number(t, key, low, high, &value)) return false;
+    *out = value;
+    if (value == floor(value)) return true;
+    const toml_node *node = toml_node_get(t->node, key);
+    scene_fail(t->reader, node, "%s: found %g, expected a whole number", toml_node_name(node),
+               value);
+    return false;
 }
 
 bool scene_table_numbers(scene_table *t, const char *key, size_t count, double low, double high,

@@ -38,6 +38,7 @@ bool scene_table_has(scene_table *t, const char *key);
 /* Each returns true if the key is there and holds what it must; a wrong value is a failure, an
  * absent key is not. */
 bool scene_table_number(scene_table *t, const char *key, double low, double high, double *out);
+bool scene_table_whole(scene_table *t, const char *key, double low, double high, double *out);
 bool scene_table_numbers(scene_table *t, const char *key, size_t count, double low, double high,
                          double *out);
 bool scene_table_string(scene_table *t, const char *key, const char **out);

@@ -265,7 +265,8 @@ static pixel_state pixel_look(radiometry_record frame, const air_record *air, ca
  * planes: shape (band_count, BAND_PLANES, pixel_count): radiance W m-2 sr-1 (or its mean per um),
  *   counts, apparent temperature C, emissivity, background emissivity; NO_VALUE where there is none;
  *   where they are wanted, what the radiance is the sum of, at the sensor: emitted by the target,
- *   reflected of the sun, the sky and the background, path; and mean tau2 */
+ *   reflected of the sun, the sky and the background, path; and mean tau2; no
+ *   standard error */
 kernel void radiometry(const radiometry_record frame, const air_record air,
                        const camera_record camera, global const facet_record *facets,
                        global const material_record *materials, global const float *temperature_k,
@@ -307,6 +308,7 @@ kernel void radiometry(const radiometry_record frame, const air_record air,
         out[4u * plane] = state.background_temperature_k > 0.0f
                               ? spectrum_sum(sums.background_emissivity) * per_um
                               : NO_VALUE;
+        out[BAND_STDERR * plane] = NO_VALUE;
         for (uint k = 0; k < RADIANCE_PARTS && frame.wants_parts; k++)
             out[(BAND_PARTS + k) * plane] = spectrum_sum(sums.part[k]) * (k == 5u ? per_um : scale);
     }

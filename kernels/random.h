@@ -8,6 +8,9 @@
 
 #define RANDOM_ROUNDS 10
 
+/* Second words of keys whose first is a seed: what the numbers are for. Detectors take their band. */
+#define RANDOM_PIXEL 0xffff0000u
+
 /* The upper word of a product, from halves of words: OpenCL C and C11 name it differently. */
 static inline uint random_high(uint a, uint b)
 {

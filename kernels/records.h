@@ -130,7 +130,8 @@ RECORD_SIZE(background_record, 48);
  *   direction = corner + (column + .5) across + (row + .5) down, then normalised.
  * Orthographic: all directions are `corner`, and position + (column + .5) across + (row + .5) down is
  * the ray's origin. The picture may be a part of the frame: its pixel (0, 0) is the frame's
- * (first_column, first_row). */
+ * (first_column, first_row). With several strata a pixel is that many samples across and down, and
+ * what is said of pixels holds for samples: those of a pixel stand together. */
 typedef struct camera_record {
     float position[3];
     float corner[3];
@@ -138,14 +139,16 @@ typedef struct camera_record {
     float down[3];
     uint first_column, first_row;
     uint is_orthographic;
-    uint unused;
+    uint strata; /* 0 or 1: one sample, in the middle of the pixel */
+    uint seed;   /* of the samples' places in their strata */
+    uint unused[3];
 } camera_record;
-RECORD_SIZE(camera_record, 64);
+RECORD_SIZE(camera_record, 80);
 
 /* What all pixels of a frame share in the radiance equations. */
 typedef struct radiometry_record {
     uint columns;     /* of the image */
-    uint first_pixel; /* of the tile, counted along the rows */
+    uint first_pixel; /* of the tile, counted along the rows; see camera_record on samples */
     uint pixel_count; /* of the tile */
     uint band_count;
     uint sample_count; /* of all bands together: length of a row of the spectra, times 16 */
@@ -204,9 +207,10 @@ RECORD_SIZE(band_record, 32);
 #define BAND_HIGHEST_K 20000.0f
 
 /* Planes that the radiometry writes per band, and those that it writes once. */
-#define BAND_PLANES 11u
+#define BAND_PLANES 12u
 #define BAND_PARTS 5u     /* the first of the parts of the radiance */
 #define RADIANCE_PARTS 6u /* emitted, of the sun, the sky, the background; path, tau2 */
+#define BAND_STDERR 11u   /* of the radiance; written for pixels of several samples */
 #define TRUTH_PLANES 11u
 #define SUN_PLANES 2u /* behind those: of the sun's history */
 

@@ -12,7 +12,7 @@
 #include <time.h>
 
 /* Pixels of a tile: a wish waits for the end of one. */
-enum { TILE_MOST = 1 << 12, TILE_LEAST = 1 << 8 };
+enum { TILE_MOST = 1 << 12 };
 
 /* A wish must last this long before exact work begins; files are looked at as often as watch_s. */
 static const double settle_s = 0.1, watch_s = 0.5;
@@ -129,18 +129,19 @@ static status render_frame(session *s, const render_look *look, unsigned number)
 {
     status rc = STATUS_OK;
     const double start_s = clock_now_s();
-    uint32_t most = TILE_MOST;
+    uint32_t most;
     frame *f = NULL;
     size_t plane_count = 0;
     const render_plane *planes = render_planes(s->r, &plane_count);
 
     TRY(frame_create(&f, s->of, &look->camera, planes, plane_count));
     render_change_look(s->r, look);
+    most = render_tile_limit(s->r) < TILE_MOST ? render_tile_limit(s->r) : TILE_MOST;
     for (size_t done = 0, all = frame_pixels(f); done < all;) {
         const uint32_t count = all - done < most ? (uint32_t)(all - done) : most;
         if (!look->is_coarse && is_outdated(s, number)) goto out;
         rc = render_tile(s->r, (uint32_t)done, count, f->values);
-        if (rc == STATUS_MEMORY && most > TILE_LEAST) {
+        if (rc == STATUS_MEMORY && most > 1) {
             most /= 2;
             continue;
         }

@@ -151,13 +151,13 @@ static double black_body(double low_um, double high_um, bool thesis)
     return sum;
 }
 
-static void planes_are_the_same_bits_for_tiles_of_any_size(void **state)
+static void assert_tiles_change_nothing(uint32_t strata)
 {
     static const uint32_t tiles[] = {1000, 4096, 777};
     size_t count, again;
-
-    (void)state;
     scene *s = read_yard();
+
+    s->strata = strata;
     float *whole = render_all(s, 65536, &count);
     for (size_t t = 0; t < sizeof tiles / sizeof *tiles; t++) {
         float *cut = render_all(s, tiles[t], &again);
@@ -167,6 +167,18 @@ static void planes_are_the_same_bits_for_tiles_of_any_size(void **state)
     }
     free(whole);
     scene_free(s);
+}
+
+static void planes_are_the_same_bits_for_tiles_of_any_size(void **state)
+{
+    (void)state;
+    assert_tiles_change_nothing(1);
+}
+
+static void planes_of_several_samples_are_the_same_bits_for_tiles_of_any_size(void **state)
+{
+    (void)state;
+    assert_tiles_change_nothing(2);
 }
 
 /* So that the test before compares more than one kind of pixel. */
@@ -290,6 +302,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(planes_are_the_same_bits_for_tiles_of_any_size),
+        cmocka_unit_test(planes_of_several_samples_are_the_same_bits_for_tiles_of_any_size),
         cmocka_unit_test(the_yard_has_pixels_of_every_kind),
         cmocka_unit_test(a_plane_that_is_not_wanted_is_not_needed),
         cmocka_unit_test(radiances_come_first_and_carry_their_band),

@@ -3,7 +3,7 @@ import numpy as np
 
 NONE = 0xFFFFFFFF
 NO_VALUE = -9999.0
-BAND_PLANES, BAND_PARTS, TRUTH_PLANES = 11, 5, 11
+BAND_PLANES, BAND_PARTS, RADIANCE_PARTS, BAND_STDERR, TRUTH_PLANES = 12, 5, 6, 11, 11
 BAND_TEMPERATURES, BAND_LOWEST_K, BAND_HIGHEST_K = 1024, 1.0, 20000.0
 WEIGHT, PLANCK_FIRST, PLANCK_SECOND, SUN, SKY, PATHS = range(6)  # SPECTRA_...
 MISSED, DIFFUSE, SPECULAR_SKY, SPECULAR_BACKGROUND = range(4)  # INTERACTION_...
@@ -34,7 +34,7 @@ WORLD = record("*ground_facet ground_z_m offset_m *cull_back")
 BACKGROUND = record("shape_factor mean_temperature_k *material *facet point[3] normal[3]"
                     " *met_count *unused")
 CAMERA = record("position[3] corner[3] across[3] down[3] *first_column *first_row"
-                " *is_orthographic *unused")
+                " *is_orthographic *strata *seed *unused[3]")
 RADIOMETRY = record("*columns *first_pixel *pixel_count *band_count *sample_count *thesis"
                     " *path_count path_zenith_first_deg path_zenith_step_deg *zenith_count"
                     " *azimuth_count zenith_step_deg azimuth_step_deg sun[3] *wants_parts *unused[3]")
