@@ -19,7 +19,7 @@ status deck_text(char **out, const card_deck *deck, const char *profile_cards,
     status rc = STATUS_OK;
     char *plain = NULL, *text = NULL;
 
-    TRY(card_deck_text(&plain, deck));
+    TRY(card_deck_text(&plain, deck, DECK_END));
     const size_t size = strlen(plain) + strlen(profile_cards) + strlen(phase_cards) + 1;
     text = malloc(size);
     NEED(text, STATUS_MEMORY, "the text of a card deck");

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 enum { ECHO_LIMIT = 8 };
+enum { EMITTED = 1, SCATTERED = 2, SUN = 3 }; /* IEMSCT */
 
 struct lowtran_process {
     char *folder;
@@ -192,6 +193,28 @@ static bool was_interrupted(int wait_status)
     return number == SIGINT || number == SIGTERM;
 }
 
+/* How often a text holds another, and where last. */
+static int count_text(const char *text, const char *part, const char **out_last)
+{
+    int count = 0;
+
+    *out_last = NULL;
+    for (const char *at = text; (at = strstr(at, part)) != NULL; at++) {
+        *out_last = at;
+        count++;
+    }
+    return count;
+}
+
+/* A run whose path LOWTRAN cannot follow leaves what an earlier run of the deck left. */
+static bool has_all_spectra(const char *tape6)
+{
+    const char *last;
+
+    return count_text(tape6, "INTEGRATED ABSORPTION FROM", &last) ==
+           count_text(tape6, "CARD 5 *****", &last);
+}
+
 static status explain(const lowtran_process *p, int wait_status, const char *name)
 {
     char *said = read_text(p->folder, "said"), *tape6 = read_text(p->folder, "out/TAPE6");
@@ -211,14 +234,14 @@ static status explain(const lowtran_process *p, int wait_status, const char *nam
     return rc;
 }
 
-/* Numbers of the card that LOWTRAN echoes, in columns of the given width. */
+/* Numbers of the card that LOWTRAN echoes, in columns of the given width; of several the last. */
 static void read_echo(const char *tape6, const char *card, int width, double out[ECHO_LIMIT])
 {
-    const char *found = strstr(tape6, card);
+    const char *found;
     char field[16];
 
     memset(out, 0, ECHO_LIMIT * sizeof *out);
-    if (!found) return;
+    if (count_text(tape6, card, &found) == 0) return;
     const char *text = strchr(found, '*');
     text += strspn(text, "*");
     const size_t length = strcspn(text, "\n");
@@ -244,6 +267,14 @@ static void read_cards(lowtran_run *out, const char *tape6)
     read_echo(tape6, "CARD 3A2*", 10, values);
     out->parm1 = values[0];
     out->psipo_deg = values[5];
+}
+
+/* What LOWTRAN has not computed it leaves as it was. */
+static void clear_rest(lowtran_sheet *s, int iemsct)
+{
+    if (iemsct != EMITTED && iemsct != SCATTERED) memset(s->emitted, 0, sizeof s->emitted);
+    if (iemsct != SCATTERED) memset(s->irradiance[2], 0, sizeof s->irradiance[2]);
+    if (iemsct != SUN) memset(s->irradiance[1], 0, sizeof s->irradiance[1]);
 }
 
 static void point_at(lowtran_run *out, const lowtran_sheet *from)
@@ -277,22 +308,23 @@ status lowtran_process_finish(lowtran_process *p, int wait_status, const char *n
 {
     status rc = STATUS_OK;
     char *tape6 = NULL;
-    const lowtran_sheet *s = &p->sheet;
+    lowtran_sheet *s = &p->sheet;
 
     p->child = 0;
     NEED(!was_interrupted(wait_status), STATUS_INTERRUPTED, "%s: interrupted", name);
-    if (wait_status != 0 || !read_sheet(p)) {
+    tape6 = read_text(p->folder, "out/TAPE6");
+    NEED(tape6, STATUS_MEMORY, "%s: the log of LOWTRAN", name);
+    if (wait_status != 0 || !read_sheet(p) || !has_all_spectra(tape6)) {
         rc = explain(p, wait_status, name);
         goto out;
     }
+    *out = (lowtran_run){0};
+    read_cards(out, tape6);
+    clear_rest(s, out->iemsct);
     for (int i = 0; i < s->point_count; i++)
         NEED(isfinite(s->tau[i]) && isfinite(s->emitted[i]) && isfinite(s->irradiance[2][i]),
              STATUS_FORMAT, "%s: LOWTRAN gave no number at %g cm-1", name,
              (double)s->wavenumber_cm1[i]);
-    tape6 = read_text(p->folder, "out/TAPE6");
-    NEED(tape6, STATUS_MEMORY, "%s: the log of LOWTRAN", name);
-    *out = (lowtran_run){0};
-    read_cards(out, tape6);
     point_at(out, s);
 out:
     free(tape6);

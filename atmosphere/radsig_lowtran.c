@@ -26,6 +26,9 @@ extern struct {
     int len;
 } card3_;
 extern struct {
+    float v1, v2, dv;
+} card4_;
+extern struct {
     float zm[LOWTRAN_LEVELS], pm[LOWTRAN_LEVELS], tm[LOWTRAN_LEVELS];
 } model_;
 extern struct {
@@ -48,9 +51,13 @@ static void run_deck(void)
 
 static void fill_sheet(void)
 {
+    /* Subroutine TRANS ends its loop so; behind may lie points of an earlier run of the deck. */
+    const float last = 5.0f * (float)(int)(card4_.v2 / 5.0f + 0.99f);
+    int count = 0;
+
+    while (count < LOWTRAN_POINTS && sheet.wavenumber_cm1[count++] < last) continue;
+    sheet.point_count = sheet.wavenumber_cm1[count - 1] >= last ? count : 0;
     memcpy(sheet.tau, transmissions[0], sizeof sheet.tau);
-    for (int i = 0; i < LOWTRAN_POINTS; i++)
-        if (sheet.wavenumber_cm1[i] > 0.0f) sheet.point_count = i + 1;
     sheet.range_km = card3_.range;
     sheet.level_count = cntrl_.ml < LOWTRAN_LEVELS ? cntrl_.ml : LOWTRAN_LEVELS;
     memcpy(sheet.altitude_km, model_.zm, sizeof sheet.altitude_km);

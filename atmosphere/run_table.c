@@ -13,6 +13,7 @@ typedef struct row {
     float *spectra;
     double zenith_deg, azimuth_deg;
     size_t index;
+    int grid; /* runs of the same wavenumbers have the same number, from 0 in the order of decks */
 } row;
 
 struct run_table {
@@ -83,10 +84,6 @@ status run_table_add(void *table, size_t index, const lowtran_run *run)
     r->run.scattered = r->spectra + 3 * n;
     r->run.irradiance = r->spectra + 4 * n;
     set_direction(r);
-    const lowtran_run *first = &t->rows[0].run;
-    NEED(first->point_count == run->point_count &&
-             !memcmp(first->wavenumber_cm1, r->spectra, n * sizeof(float)),
-         STATUS_FORMAT, "the decks state different wavenumbers, expected the same card 4 in all");
 out:
     return rc;
 }
@@ -101,10 +98,39 @@ static bool is_path(const lowtran_run *run)
     return run->iemsct != SUN && run->itype != PATH_TO_SPACE;
 }
 
-/* The sun, paths, the sky; each by zenith angle, then by azimuth. */
+static int compare_index(const void *a, const void *b)
+{
+    const row *x = a, *y = b;
+
+    return (x->index > y->index) - (x->index < y->index);
+}
+
+static bool same_grid(const lowtran_run *a, const lowtran_run *b)
+{
+    return a->point_count == b->point_count &&
+           !memcmp(a->wavenumber_cm1, b->wavenumber_cm1,
+                   (size_t)a->point_count * sizeof *a->wavenumber_cm1);
+}
+
+/* Returns the number of grids. */
+static int number_grids(run_table *t)
+{
+    int count = 0;
+
+    qsort(t->rows, t->count, sizeof *t->rows, compare_index);
+    for (size_t i = 0; i < t->count; i++) {
+        size_t first = 0;
+        while (!same_grid(&t->rows[first].run, &t->rows[i].run)) first++;
+        t->rows[i].grid = first < i ? t->rows[first].grid : count++;
+    }
+    return count;
+}
+
+/* By grid; the sun, paths, the sky; each by zenith angle, then by azimuth. */
 static int compare(const void *a, const void *b)
 {
     const row *x = a, *y = b;
+    if (x->grid != y->grid) return x->grid - y->grid;
     const int kind_x = is_path(&x->run) + 2 * is_sky(&x->run);
     const int kind_y = is_path(&y->run) + 2 * is_sky(&y->run);
 
@@ -126,7 +152,7 @@ static size_t count_kind(const run_table *t, bool (*is_kind)(const lowtran_run *
     return count;
 }
 
-static void write_header(FILE *stream, const char *const *decks, size_t count)
+static void write_header(FILE *stream, const run_table *t, const char *const *decks)
 {
     fprintf(
         stream,
@@ -134,10 +160,11 @@ static void write_header(FILE *stream, const char *const *decks, size_t count)
         "4).\n"
         "# W cm-2 sr-1 um-1 and km; not averaged. Rows ascend in wavelength. The last value of\n"
         "# the solar rows is the transmission of the run that looks at the sun, else of the\n"
-        "# first run. Sections of which no deck speaks are left out.\n" LOWTRAN_SOURCE_HEADER);
-    for (size_t i = 0; i < count; i++) {
-        fprintf(stream, "# Deck %zu:\n", i + 1);
-        for (const char *line = decks[i]; *line; line += strcspn(line, "\n") + 1)
+        "# first run. Sections of which no deck speaks are left out; what no run computes is 0.\n"
+        "# A deck of several runs gives the last one's numbers.\n" LOWTRAN_SOURCE_HEADER);
+    for (size_t i = 0; i < t->count; i++) {
+        fprintf(stream, "# Deck %zu:\n", t->rows[i].index + 1);
+        for (const char *line = decks[t->rows[i].index]; *line; line += strcspn(line, "\n") + 1)
             fprintf(stream, "#    %.*s\n", (int)strcspn(line, "\n"), line);
     }
 }
@@ -248,17 +275,56 @@ out:
     return rc;
 }
 
-status run_table_write(run_table *t, const char *const *decks, size_t count, const char *path)
+/* FILE.rad, FILE_2.rad, FILE_3.rad; the caller frees it. */
+static char *number_path(const char *path, int grid)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
+    const size_t stem = dot && (!slash || dot > slash) ? (size_t)(dot - path) : strlen(path);
+    const size_t size = strlen(path) + 16;
+    char *out = malloc(size);
+
+    if (!out) return NULL;
+    if (grid == 0)
+        snprintf(out, size, "%s", path);
+    else
+        snprintf(out, size, "%.*s_%d%s", (int)stem, path, grid + 1, path + stem);
+    return out;
+}
+
+/* Writes the rows of one grid, of which all stand together; the caller commits. */
+static status write_grid(run_table *t, const char *const *decks, const char *path, int grid,
+                         output_file **out)
 {
     status rc = STATUS_OK;
-    output_file *file = NULL;
+    run_table part = {0};
+    char *numbered = number_path(path, grid);
 
-    qsort(t->rows, t->count, sizeof *t->rows, compare);
-    TRY(output_file_open(&file, path));
-    write_header(output_file_stream(file), decks, count);
-    TRY(write_rows(output_file_stream(file), t));
-    TRY(output_file_commit(file));
+    NEED(numbered, STATUS_MEMORY, "the name of %s", path);
+    for (part.rows = t->rows; part.rows->grid < grid;) part.rows++;
+    while (part.rows + part.count < t->rows + t->count && part.rows[part.count].grid == grid)
+        part.count++;
+    TRY(output_file_open(out, numbered));
+    qsort(part.rows, part.count, sizeof *part.rows, compare_index);
+    write_header(output_file_stream(*out), &part, decks);
+    qsort(part.rows, part.count, sizeof *part.rows, compare);
+    TRY(write_rows(output_file_stream(*out), &part));
 out:
-    output_file_free(file);
+    free(numbered);
+    return rc;
+}
+
+status run_table_write(run_table *t, const char *const *decks, const char *path)
+{
+    status rc = STATUS_OK;
+    const int grids = number_grids(t);
+    output_file **files = calloc((size_t)grids, sizeof *files);
+
+    NEED(files, STATUS_MEMORY, "%d files", grids);
+    qsort(t->rows, t->count, sizeof *t->rows, compare);
+    for (int i = 0; i < grids; i++) TRY(write_grid(t, decks, path, i, &files[i]));
+    for (int i = 0; i < grids; i++) TRY(output_file_commit(files[i]));
+out:
+    for (int i = 0; files && i < grids; i++) output_file_free(files[i]);
+    free(files);
     return rc;
 }

@@ -9,25 +9,26 @@ static const char help[] = "usage: radsig-atmosphere deck FILE.cdk [FILE.cdk ...
                            "\n"
                            "Runs card decks of LOWTRAN 7 as they stand and writes a text radiance "
                            "database as far as they\n"
-                           "fill it. A deck for MODTRAN is taken too: its leading letter and its "
-                           "resolution are dropped.\n";
+                           "fill it. A deck of several runs (IRPT 1, 3, 4) runs as a whole. Runs "
+                           "of other wavenumbers than\n"
+                           "the first go to files of their own, FILE_2.rad and so on. A deck for "
+                           "MODTRAN is taken too: its\n"
+                           "leading letter and its resolution are dropped.\n";
 
 static status run(char **files, size_t count, const char *output)
 {
     status rc = STATUS_OK;
     run_table *table = NULL;
-    char **decks = calloc(count, sizeof *decks);
+    deck_runs runs = {0};
 
-    NEED(decks, STATUS_MEMORY, "%zu decks", count);
-    for (size_t i = 0; i < count; i++) TRY(deck_file_read(&decks[i], files[i]));
+    for (size_t i = 0; i < count; i++) TRY(deck_file_read(&runs, files[i]));
     TRY(run_table_open(&table));
-    TRY(lowtran_run_decks((const char *const *)decks, (const char *const *)files, count,
-                          run_table_add, table));
-    TRY(run_table_write(table, (const char *const *)decks, count, output));
+    TRY(lowtran_run_decks((const char *const *)runs.texts, (const char *const *)runs.names,
+                          runs.count, run_table_add, table));
+    TRY(run_table_write(table, (const char *const *)runs.texts, output));
 out:
     run_table_free(table);
-    for (size_t i = 0; decks && i < count; i++) free(decks[i]);
-    free(decks);
+    deck_file_free(&runs);
     return rc;
 }
 

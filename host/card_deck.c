@@ -48,7 +48,7 @@ static const field fields_1[] = {
 static const field fields_2[] = {
     {"IHAZE", AT(ihaze), 5, WHOLE, 0, 10},      {"ISEASN", AT(iseasn), 5, WHOLE, 0, 2},
     {"IVULCN", AT(ivulcn), 5, WHOLE, 0, 8},     {"ICSTL", AT(icstl), 5, WHOLE, 0, 10},
-    {"ICLD", AT(icld), 5, WHOLE, 0, 11},        {"IVSA", AT(ivsa), 5, WHOLE, 0, 0},
+    {"ICLD", AT(icld), 5, WHOLE, 0, 10},        {"IVSA", AT(ivsa), 5, WHOLE, 0, 0},
     {"VIS", AT(vis_km), 10, 3, 0.0, 1000.0},    {"WSS", AT(wss_m_s), 10, 3, 0.0, 200.0},
     {"WHH", AT(whh_m_s), 10, 3, 0.0, 200.0},    {"RAINRT", AT(rainrt_mm_h), 10, 3, 0.0, 1000.0},
     {"GNDALT", AT(gndalt_km), 10, 3, 0.0, 9.0},
@@ -96,12 +96,12 @@ static const field fields_4_modtran[] = {
     {"IDV", AT(dv_cm1), 10, 0, 1.0, CM1_LIMIT},
     {"IRES", AT(resolution_cm1), 10, WHOLE, 1, 50},
 };
-static const field fields_5[] = {{"IRPT", AT(irpt), 5, WHOLE, 0, 0}};
+static const field fields_5[] = {{"IRPT", AT(irpt), 5, WHOLE, 0, 4}};
 
 enum { CARD_COUNT = 7 };
 
-/* Which cards a deck has follows from its card 1. Returns their number. */
-static size_t card_list(const card_deck *deck, card out[CARD_COUNT])
+/* Which cards a run has follows from its card 1 and from the IRPT before it. Returns their number. */
+static size_t card_list(const card_deck *deck, int after, card out[CARD_COUNT])
 {
     static const card card_1 = CARD("card 1", fields_1), card_2 = CARD("card 2", fields_2),
                       card_3 = CARD("card 3", fields_3), card_3_sun = CARD("card 3", fields_3_sun),
@@ -111,14 +111,17 @@ static size_t card_list(const card_deck *deck, card out[CARD_COUNT])
                       card_5 = CARD("card 5", fields_5);
     size_t count = 0;
 
-    out[count++] = card_1;
-    out[count++] = card_2;
-    out[count++] = deck->iemsct == 3 ? card_3_sun : card_3;
-    if (deck->iemsct == 2) {
+    const bool all = after != DECK_NEW_GEOMETRY && after != DECK_NEW_WAVENUMBERS;
+    if (all) {
+        out[count++] = card_1;
+        out[count++] = card_2;
+    }
+    if (after != DECK_NEW_WAVENUMBERS) out[count++] = deck->iemsct == 3 ? card_3_sun : card_3;
+    if (after != DECK_NEW_WAVENUMBERS && deck->iemsct == 2) {
         out[count++] = card_3a1;
         out[count++] = card_3a2;
     }
-    out[count++] = deck->modtran ? card_4_modtran : card_4;
+    if (after != DECK_NEW_GEOMETRY) out[count++] = deck->modtran ? card_4_modtran : card_4;
     out[count++] = card_5;
     return count;
 }
@@ -194,22 +197,61 @@ out:
     return rc;
 }
 
+status card_deck_check_irpt(int irpt, int iemsct, const record_file *file)
+{
+    if (irpt < DECK_END || irpt == 2 || irpt > DECK_NEW_WAVENUMBERS)
+        return record_file_reject(file, "card 5 with IRPT 0, 1, 3 or 4");
+    if (irpt == DECK_NEW_GEOMETRY && iemsct >= 2)
+        return record_file_reject(file, "card 5 with IRPT 0, 1 or 4: LOWTRAN takes 3 only where no "
+                                        "sun is in the run (IEMSCT 0 or 1)");
+    return STATUS_OK;
+}
+
+/* What no field's range tells. */
+static status check_card(const card_deck *deck, const card *c, const record_file *file)
+{
+    const bool is_4 = c->fields == fields_4 || c->fields == fields_4_modtran;
+
+    if (is_4 && deck->v2_cm1 < deck->v1_cm1)
+        return record_file_reject(file, "card 4 with V1 below V2");
+    if (c->fields == fields_2 && deck->ihaze == 7)
+        return record_file_reject(file,
+                                  "card 2 with another IHAZE than 7, which has further cards");
+    if (c->fields == fields_3a1 && deck->iph == 1)
+        return record_file_reject(file, "card 3A1 with IPH 0 or 2: 1 has further cards");
+    if (c->fields == fields_5) return card_deck_check_irpt(deck->irpt, deck->iemsct, file);
+    return STATUS_OK;
+}
+
+status card_deck_read_next(card_deck *deck, record_file *file)
+{
+    status rc = STATUS_OK;
+    card_deck next = {0};
+    card cards[CARD_COUNT];
+    const int after = deck->irpt;
+
+    if (after == DECK_NEW_GEOMETRY || after == DECK_NEW_WAVENUMBERS) next = *deck;
+    /* The list is complete once card 1 is read. */
+    for (size_t i = 0; i < card_list(&next, after, cards); i++) {
+        TRY(read_card(&next, &cards[i], file));
+        TRY(check_card(&next, &cards[i], file));
+    }
+    *deck = next;
+out:
+    return rc;
+}
+
 status card_deck_read(card_deck *out, const char *path)
 {
     status rc = STATUS_OK;
     record_file *file = NULL;
     card_deck deck = {0};
-    card cards[CARD_COUNT];
 
     TRY(record_file_open(&file, path));
-    /* The list is complete once card 1 is read. */
-    for (size_t i = 0; i < card_list(&deck, cards); i++) {
-        TRY(read_card(&deck, &cards[i], file));
-        if (cards[i].fields != fields_4 && cards[i].fields != fields_4_modtran) continue;
-        if (deck.v2_cm1 < deck.v1_cm1) {
-            rc = record_file_reject(file, "card 4 with V1 below V2");
-            goto out;
-        }
+    TRY(card_deck_read_next(&deck, file));
+    if (deck.irpt != 0) {
+        rc = record_file_reject(file, "card 5 with IRPT 0: a deck of one run");
+        goto out;
     }
     TRY(record_file_finish(file));
     *out = deck;
@@ -249,13 +291,13 @@ static void write_card(FILE *stream, const card_deck *deck, const card *c)
     fputc('\n', stream);
 }
 
-status card_deck_text(char **out, const card_deck *deck)
+status card_deck_text(char **out, const card_deck *deck, int after)
 {
     status rc = STATUS_OK;
     char *text = NULL;
     size_t length;
     card cards[CARD_COUNT];
-    const size_t count = card_list(deck, cards);
+    const size_t count = card_list(deck, after, cards);
     FILE *stream = open_memstream(&text, &length);
 
     NEED(stream, STATUS_MEMORY, "the text of a card deck");
@@ -274,7 +316,7 @@ status card_deck_write(const card_deck *deck, const char *path)
     output_file *file = NULL;
     char *text = NULL;
 
-    TRY(card_deck_text(&text, deck));
+    TRY(card_deck_text(&text, deck, DECK_END));
     TRY(output_file_open(&file, path));
     fputs(text, output_file_stream(file));
     TRY(output_file_commit(file));

@@ -1,8 +1,9 @@
-/* Card deck: one LOWTRAN 7 or MODTRAN run. Appendix A item 2 (.cdk); fields by the manuals' names
+/* Card deck: the runs of LOWTRAN 7 or MODTRAN. Appendix A item 2 (.cdk); fields by the manuals' names
  * (Kneizys and others 1988; Berk and others 1989) and in their units. */
 #ifndef CARD_DECK_H
 #define CARD_DECK_H
 
+#include "record_file.h"
 #include "status.h"
 
 #include <stdbool.h>
@@ -26,16 +27,30 @@ typedef struct card_deck {
     double v1_cm1, v2_cm1, dv_cm1;
     int resolution_cm1; /* MODTRAN only */
     /* card 5 */
-    int irpt; /* 0: no further run */
+    int irpt;
 } card_deck;
 
-/* Reads a deck. A card that holds all its numbers may be spaced freely, as the printed one is;
+/* What card 5 says of the next run: there is none, it has all cards, card 3 with 3A1 and 3A2, card 4;
+ * it keeps the others. */
+enum { DECK_END = 0, DECK_NEW_CARDS = 1, DECK_NEW_GEOMETRY = 3, DECK_NEW_WAVENUMBERS = 4 };
+
+/* Reads a deck of one run. A card that holds all its numbers may be spaced freely, as the printed one is;
  * otherwise the manual's columns count and blank fields are 0. Fails with STATUS_FORMAT on what
- * asks for further cards: MODEL 0 or 7, IHAZE 7, ICLD 18 to 20, IVSA 1, IRPT not 0. */
+ * asks for further cards: MODEL 0 or 7, IHAZE 7, ICLD above 10, IVSA 1, IPH 1, IRPT not 0. */
 status card_deck_read(card_deck *out, const char *path);
 
-/* The deck in the manual's columns; the caller frees it. */
-status card_deck_text(char **out, const card_deck *deck);
+/* Reads one run of several: all cards, or those that the IRPT of the run before it asks for.
+ *   deck   the run before it, or zeros; becomes the run
+ * Fails likewise. */
+status card_deck_read_next(card_deck *deck, record_file *file);
+
+/* Fails with STATUS_FORMAT at the file's last line on an IRPT at which LOWTRAN stops: 2, above 4, or
+ * 3 with IEMSCT 2 or 3. */
+status card_deck_check_irpt(int irpt, int iemsct, const record_file *file);
+
+/* The cards of a run in the manual's columns; the caller frees them.
+ *   after   IRPT of the run before it: which cards; DECK_END: all */
+status card_deck_text(char **out, const card_deck *deck, int after);
 
 /* Writes the same. */
 status card_deck_write(const card_deck *deck, const char *path);

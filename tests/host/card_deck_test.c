@@ -148,7 +148,10 @@ static void a_wrong_card_is_refused_at_its_line(void **state)
         {"17.000", "170.00", 5, "card 3A2 with TIME from 0 to 24"},
         {"  750    1250", "  1250    750", 6, "V1 below V2"},
         {"  750    1250", "  750.5    1250", 6, "IV1 a whole number"},
-        {"2\n   0\n", "2\n   1\n", 7, "card 5 with IRPT a whole number from 0 to 0"},
+        {"2\n   0\n", "2\n   1\n", 7, "card 5 with IRPT 0: a deck of one run"},
+        {"2\n   0\n", "2\n   2\n", 7, "card 5 with IRPT 0, 1, 3 or 4"},
+        {"2\n   0\n", "2\n   3\n", 7, "card 5 with IRPT 0, 1 or 4"},
+        {"2\n   0\n", "2\n   5\n", 7, "card 5 with IRPT a whole number from 0 to 4"},
         {"2\n   0\n", "2\n", 7, "the file ends, expected card 5"},
         {"2\n   0\n", "2\n   0\n0\n", 8, "the end of the file"},
     };
