@@ -1,8 +1,8 @@
 /* Cloud sky: what clouds leave of the sun. Three layers that reflect and let through by type, cover
  * and height of the sun: R. Shapiro, Solar radiative flux calculations from standard surface
- * meteorological observations, AFGL-TR-82-0039 (1982); its coefficients as later programs print them
- * (FASST of ERDC, AGRMET and others). The beam is what is let through less what is reflected, as
- * FASST has it. */
+ * meteorological observations, AFGL-TR-82-0039 (1982); its coefficients as later programs print
+ * them (FASST of ERDC, AGRMET and others). The beam is what is let through less what is reflected,
+ * as FASST has it. */
 #ifndef CLOUD_SKY_H
 #define CLOUD_SKY_H
 

@@ -3,6 +3,7 @@
 #include "curve.h"
 #include "record_file.h"
 #include "sensitivity.h"
+#include "weather_history.h"
 #include "weather_place.h"
 
 #include <math.h>
@@ -206,7 +207,7 @@ status command_sensitivity(const sensitivity_request *request)
 
     TRY(material_library_read(&library, request->materials));
     TRY(list_objects(&list, request, library));
-    TRY(weather_read(&w, request->weather));
+    TRY(weather_history_read(&w, request->weather, &request->place));
     weather_place_check_day(w, &request->place, request->weather);
     TRY(device_open(&dev, -1));
     const sensitivity_study study = {.object = list.object,

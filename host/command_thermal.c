@@ -4,6 +4,7 @@
 #include "constants.h"
 #include "curve.h"
 #include "thermal.h"
+#include "weather_history.h"
 #include "weather_place.h"
 
 #include <getopt.h>
@@ -279,7 +280,7 @@ static status run(const thermal_request *request)
     const material *named = material_by_name(library, request->material);
     NEED(named, STATUS_ARGUMENT, "%s: has no material '%s'", request->materials, request->material);
     record = command_material_record(named);
-    TRY(weather_read(&w, request->weather));
+    TRY(weather_history_read(&w, request->weather, &request->place));
     weather_place_check_day(w, &request->place, request->weather);
     temperature_k = malloc(w->count * sizeof *temperature_k);
     NEED(temperature_k, STATUS_MEMORY, "no memory for %zu temperatures", w->count);

@@ -21,8 +21,8 @@ typedef enum forcing_convection {
     FORCING_MCADAMS   /* 5.7 + 3.8 V: McAdams 1954 */
 } forcing_convection;
 
-/* Where the sky's diffuse light comes from. Hay and Davies, 1980: what the beam is of that outside the
- * air, this share of the diffuse light comes from the sun's direction. */
+/* Where the sky's diffuse light comes from. Hay and Davies, 1980: what the beam is of that outside
+ * the air, this share of the diffuse light comes from the sun's direction. */
 typedef enum forcing_diffuse { FORCING_ISOTROPIC, FORCING_HAY_DAVIES } forcing_diffuse;
 
 typedef struct forcing_laws {

@@ -1,6 +1,7 @@
 #include "atmosphere_plan.h"
 #include "scene_parts.h"
 #include "uniform_atmosphere.h"
+#include "weather_history.h"
 #include "weather_place.h"
 #include "weather_synthesis.h"
 
@@ -84,12 +85,11 @@ static void read_summary(scene_table *t, weather_summary *summary)
     read_celsius(t, "rain_temperature_c", &summary->rain_temperature_k);
 }
 
-/* The site may have failed: its place is then no place to compare with. */
 static void read_history(scene_reader *reader, const char *path)
 {
     scene *s = reader->s;
 
-    if (scene_took(reader, weather_read(&s->history, path)) && reader->failure_count == 0)
+    if (scene_took(reader, weather_history_read(&s->history, path, &s->place)))
         weather_place_check(s->history, &s->place, path);
 }
 

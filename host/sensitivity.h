@@ -1,5 +1,5 @@
-/* Sensitivity: how far temperatures move when one input of the weather or of an object is off by its
- * measurement error. Thesis 3.1.1 and 3.1.2, Tables 3.1.1-1 and 3.1.2-1. */
+/* Sensitivity: how far temperatures move when one input of the weather or of an object is off by
+ * its measurement error. Thesis 3.1.1 and 3.1.2, Tables 3.1.1-1 and 3.1.2-1. */
 #ifndef SENSITIVITY_H
 #define SENSITIVITY_H
 
