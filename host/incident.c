@@ -14,8 +14,8 @@ struct incident {
     const shape_factor_grid *grid;
     shape_factor_tables tables;
     device_memory facet_background; /* background_record, per facet, the ground's last */
-    uint32_t dome_count;
-    device_memory dome; /* float, shape (dome_count, 8) */
+    incident_record how;
+    device_memory dome; /* float, shape (how.dome_count, 8) */
 };
 
 /* Point `i` of two in every interval of an even division of span_deg, after Gauss: exact for cubics
@@ -60,12 +60,12 @@ static status make_dome(incident *in, const radiometry_record *frame)
     const uint32_t azimuths = frame->azimuth_count > 1 ? frame->azimuth_count - 1 : 12;
     float *dome = NULL;
 
-    in->dome_count = 4 * zeniths * azimuths;
-    dome = malloc(in->dome_count * 8 * sizeof *dome);
+    in->how.dome_count = 4 * zeniths * azimuths;
+    dome = malloc(in->how.dome_count * 8 * sizeof *dome);
     NEED(dome, STATUS_MEMORY, "no memory for the sky");
     fill_dome(dome, zeniths, azimuths, frame);
-    TRY(device_allocate(ray_scene_device(in->scene), &in->dome, in->dome_count * 8 * sizeof *dome,
-                        dome));
+    TRY(device_allocate(ray_scene_device(in->scene), &in->dome,
+                        in->how.dome_count * 8 * sizeof *dome, dome));
 out:
     free(dome);
     return rc;
@@ -133,16 +133,19 @@ out:
 }
 
 status incident_open(incident **out, const ray_scene *scene, const shape_factor_grid *grid,
-                     const shape_factor_tables *tables, const geometry *g,
+                     const shape_factor_tables *tables, uint32_t lobe_rings, const geometry *g,
                      const radiometry_record *frame)
 {
     status rc = STATUS_OK;
     incident *in = calloc(1, sizeof *in);
 
     NEED(in, STATUS_MEMORY, "no memory for the incident radiance");
-    NEED(frame->zenith_count * frame->azimuth_count <= INCIDENT_DIRECTIONS, STATUS_ARGUMENT,
-         "the sky has %u x %u directions, expected %u or fewer", frame->zenith_count,
-         frame->azimuth_count, INCIDENT_DIRECTIONS);
+    NEED(lobe_rings * frame->zenith_count * frame->azimuth_count <= INCIDENT_WEIGHTS,
+         STATUS_ARGUMENT,
+         "the sky has %u x %u directions, and lobes %u rings, expected %u together or fewer",
+         frame->zenith_count, frame->azimuth_count, lobe_rings, INCIDENT_WEIGHTS);
+    in->how.cell_count = shape_factor_cell_count(grid);
+    in->how.ring_count = lobe_rings;
     in->scene = scene;
     in->grid = grid;
     in->tables = *tables;
@@ -166,7 +169,6 @@ void incident_free(incident *in)
 /* What bodies change of it. */
 static status run_bodies(const incident *in, const incident_pixels *p, device_memory out)
 {
-    const uint32_t cells = shape_factor_cell_count(in->grid);
     const device_memory cell = shape_factor_cells(in->grid);
     const world_record world = ray_scene_world(in->scene);
     const crossing_world bodies_around = bodies_world(p->bodies);
@@ -177,7 +179,7 @@ static status run_bodies(const incident *in, const incident_pixels *p, device_me
 
     return device_run(
         ray_scene_device(in->scene), "incident_bodies", shape1(p->frame.pixel_count), ARG(p->frame),
-        ARG(p->camera), ARG(cells), ARG(cell), ARG(world), ARG(bodies_around), ARG(nodes),
+        ARG(p->camera), ARG(in->how), ARG(cell), ARG(world), ARG(bodies_around), ARG(nodes),
         ARG(blocks), ARG(body_nodes), ARG(body_blocks), ARG(medium), ARG(levels),
         ARG(in->tables.facet), ARG(in->tables.material), ARG(in->tables.temperature_k),
         ARG(in->facet_background), ARG(p->points.hit), ARG(p->background), ARG(p->background_lit),
@@ -187,13 +189,12 @@ static status run_bodies(const incident *in, const incident_pixels *p, device_me
 status incident_run(const incident *in, const incident_pixels *p, device_memory out)
 {
     status rc = STATUS_OK;
-    const uint32_t cells = shape_factor_cell_count(in->grid);
     const device_memory cell = shape_factor_cells(in->grid);
     const uint32_t groups = (p->frame.pixel_count + PIXELS_AT_ONCE - 1) / PIXELS_AT_ONCE;
     const device_shape shape = {{groups, 1}, 4};
 
     TRY(device_run(ray_scene_device(in->scene), "incident", shape, ARG(p->frame), ARG(p->camera),
-                   ARG(cells), ARG(in->dome_count), ARG(cell), ARG(in->dome), ARG(in->tables.facet),
+                   ARG(in->how), ARG(cell), ARG(in->dome), ARG(in->tables.facet),
                    ARG(in->tables.material), ARG(in->tables.temperature_k),
                    ARG(in->facet_background), ARG(p->points.hit), ARG(p->background),
                    ARG(p->background_lit), ARG(p->points.met), ARG(p->spectra), ARG(p->emissivity),

@@ -11,12 +11,13 @@ typedef struct incident incident;
 
 /* Samples the hemisphere above the middle of every facet, which tells how much sky a facet sees that
  * is itself seen, and lays points of a quadrature over the table of the sky.
- *   tables   of the facets; the ground's stands behind the real ones
- *   frame    zenith and azimuth of the sky's table are read
- * Fails with STATUS_ARGUMENT where the table has more than INCIDENT_DIRECTIONS directions. What is
+ *   tables       of the facets; the ground's stands behind the real ones
+ *   lobe_rings   of the materials' diffuse lobes (lobe.h)
+ *   frame        zenith and azimuth of the sky's table are read
+ * Fails with STATUS_ARGUMENT where the table has more than INCIDENT_WEIGHTS / lobe_rings directions. What is
  * passed in must outlive it. */
 status incident_open(incident **out, const ray_scene *scene, const shape_factor_grid *grid,
-                     const shape_factor_tables *tables, const geometry *g,
+                     const shape_factor_tables *tables, uint32_t lobe_rings, const geometry *g,
                      const radiometry_record *frame);
 void incident_free(incident *in);
 

@@ -131,7 +131,7 @@ static status open_incident(render *r)
                                         r->shared.tables.materials};
 
     TRY(incident_open(&r->shared.around, r->shared.rays, r->shared.grid, &tables,
-                      r->shared.s->shape, &r->shared.frame));
+                      scene_lobe_rings(r->shared.s), r->shared.s->shape, &r->shared.frame));
     end_stage(r, "surroundings of facets");
 out:
     return rc;

@@ -306,7 +306,15 @@ bool scene_sums_points(const scene *s)
 
 uint32_t scene_lobe_rings(const scene *s)
 {
-    return (uint32_t)lround(90.0 / s->hemisphere_zenith_step_deg);
+    const uint32_t rings = (uint32_t)lround(90.0 / s->hemisphere_zenith_step_deg);
+    const uint32_t directions =
+        s->air ? (uint32_t)(s->air->zenith_count * s->air->azimuth_count) : 1;
+    uint32_t most = 1;
+
+    for (uint32_t i = 0; i < s->material_count; i++)
+        if (s->materials[i].record.emissivity_angles > 1) most = LOBE_RINGS;
+    while (rings % most > 0 || (most > 1 && most * directions > INCIDENT_WEIGHTS)) most--;
+    return most;
 }
 
 uint32_t scene_lobe_rows(const scene *s, uint32_t material)

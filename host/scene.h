@@ -101,7 +101,8 @@ uint32_t scene_emissivity_rows(const scene *s);
 /* Rows of a material's diffuse lobe: 0 in thesis mode and where the emissivity has no angles. */
 uint32_t scene_lobe_rows(const scene *s, uint32_t material);
 
-/* Rings of the hemisphere. */
+/* Rings of these lobes: those of the hemisphere, joined where they or the sky's directions are many; 1
+ * where no emissivity has angles. */
 uint32_t scene_lobe_rings(const scene *s);
 
 /* Fills the records of the facets and, behind them, of the ground plane if there is one.

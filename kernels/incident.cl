@@ -1,123 +1,44 @@
-#include "surroundings.h"
+#include "sky_weights.h"
 
 /* Cells whose facets are held at once. */
 #define ROUND 16u
 
-/* LANES_WIDTH neighbouring pixels; a lane past the end is a missed one. */
-typedef struct incident_group {
-    uint first, lane_count;
-    uint diffuse; /* a bit per lane that is */
-    uint kind[LANES_WIDTH], facet[LANES_WIDTH];
-    diffuse_view view;
-} incident_group;
-
-/* The grid of the hemisphere and what its rays met, see hemisphere.cl. */
-typedef struct incident_cells {
-    uint count;
-    global const float *cell;
-    global const uint *met;
-} incident_cells;
-
-static inline lanes lanes_of_bit(uint bits)
-{
-    lanes out = (lanes)0.0f;
-
-    for (uint i = 0; i < LANES_WIDTH; i++) LANES_SET(out, i, (float)(bits >> i & 1u));
-    return out;
-}
-
-static inline float lane_of(const lanes *from, uint lane)
-{
-    return ((const float *)from)[lane];
-}
-
-/* Adds to the weights of the table's directions what the cells that see the sky count more than
- * their share of it, and those that do not less. */
-static void count_cells(lanes *weights, radiometry_record frame, const incident_group *g,
-                        incident_cells cells)
-{
-    const lanes is_diffuse = lanes_of_bit(g->diffuse);
-    const float degree = 180.0f / PI_F;
-    lanes direction[3];
-
-    for (uint c = 0; c < cells.count; c++) {
-        const lanes_bits word =
-            lanes_load_bits(cells.met + (size_t)c * frame.pixel_count, g->first, frame.pixel_count);
-        const lanes sees = word == RECORD_NONE ? (lanes)1.0f : (lanes)0.0f;
-        hemisphere_lanes_direction(&g->view.axes, cells.cell + 4u * c, direction);
-        const lanes weight =
-            is_diffuse * cells.cell[4u * c + 3u] *
-            (direction[2] > 0.0f ? g->view.above * (sees - g->view.seen) : g->view.below * sees);
-        if (!lanes_any(weight != 0.0f)) continue;
-        const lanes turn = atan2(direction[0], direction[1]) * degree;
-        const lanes azimuth = turn < 0.0f ? turn + 360.0f : turn;
-        const lanes zenith = acos(clamp(direction[2], -1.0f, 1.0f)) * degree;
-        for (uint i = 0; i < LANES_WIDTH; i++) {
-            if (lane_of(&weight, i) == 0.0f) continue;
-            const sky_lookup at = sky_place(frame, lane_of(&zenith, i), lane_of(&azimuth, i));
-            incident_add_sky((float *)weights + i, LANES_WIDTH, frame, at, lane_of(&weight, i));
-        }
-    }
-}
-
-/* Weights of the sky's directions for diffuse surfaces, 0 for others. The cells that see the sky
- * count what they weigh; what the cells above the horizon miss of the open sky's integral is added by
- * the share of the sky that is seen.
- *   dome   (dome_count, 8): direction, solid angle, and its place in the table: rows and shares of
- *          zenith and azimuth */
-static void count_sky(lanes *weights, radiometry_record frame, const incident_group *g,
-                      incident_cells cells, uint dome_count, global const float *dome)
-{
-    const lanes *normal = g->view.axes.normal;
-    const uint directions = frame.zenith_count * frame.azimuth_count;
-    lanes open = (lanes)0.0f;
-
-    for (uint d = 0; d < directions; d++) weights[d] = (lanes)0.0f;
-    for (uint d = 0; d < dome_count; d++) {
-        const float8 at = vload8(d, dome);
-        const lanes facing =
-            fmax((at.s0 * normal[0] + at.s1 * normal[1] + at.s2 * normal[2]) * at.s3, 0.0f);
-        const uint low = (uint)at.s4, left = (uint)at.s6;
-        lanes *lower = weights + low * frame.azimuth_count;
-        lanes *upper = weights + min(low + 1u, frame.zenith_count - 1u) * frame.azimuth_count;
-        const uint right = min(left + 1u, frame.azimuth_count - 1u);
-        open += facing;
-        lower[left] += facing * ((1.0f - at.s5) * (1.0f - at.s7));
-        lower[right] += facing * ((1.0f - at.s5) * at.s7);
-        upper[left] += facing * (at.s5 * (1.0f - at.s7));
-        upper[right] += facing * (at.s5 * at.s7);
-    }
-    const lanes scale =
-        lanes_of_bit(g->diffuse) * (open > 0.0f ? g->view.open * g->view.seen / open : (lanes)0.0f);
-    for (uint d = 0; d < directions; d++) weights[d] *= scale;
-    count_cells(weights, frame, g, cells);
-}
-
 /* Writes the sky's radiance by the weights of its directions. */
 static void write_sky(const lanes *weights, radiometry_record frame, const incident_group *g,
-                      global const float *spectra, global float *out)
+                      uint ring_count, global const float *spectra, global const float *emissivity,
+                      global float *out)
 {
     const uint row = frame.sample_count, directions = frame.zenith_count * frame.azimuth_count;
     global const float *sky = spectra + (size_t)(SPECTRA_PATHS + 2u * frame.path_count) * row;
 
     for (uint block = 0; block < row / SPECTRUM_WIDTH; block++) {
-        spectrum sum[LANES_WIDTH];
+        spectrum total[LANES_WIDTH];
         UNROLL
-        for (uint i = 0; i < LANES_WIDTH; i++) sum[i] = (spectrum)0.0f;
-        for (uint d = 0; d < directions; d++) {
-            const spectrum radiance = spectrum_load(sky + (size_t)d * row, block);
+        for (uint i = 0; i < LANES_WIDTH; i++) total[i] = (spectrum)0.0f;
+        for (uint r = 0; r < ring_count; r++) {
+            spectrum sum[LANES_WIDTH];
             UNROLL
-            for (uint i = 0; i < LANES_WIDTH; i++) sum[i] += lane_of(&weights[d], i) * radiance;
+            for (uint i = 0; i < LANES_WIDTH; i++) sum[i] = (spectrum)0.0f;
+            for (uint d = 0; d < directions; d++) {
+                const lanes weight = weights[r * directions + d];
+                if (!lanes_any(weight != 0.0f)) continue;
+                const spectrum radiance = spectrum_load(sky + (size_t)d * row, block);
+                UNROLL
+                for (uint i = 0; i < LANES_WIDTH; i++) sum[i] += lane_of(&weight, i) * radiance;
+            }
+            for (uint i = 0; i < LANES_WIDTH; i++)
+                total[i] += sum[i] * lobe_of_ring(emissivity, row, g->lobe[i], r, block);
         }
         for (uint i = 0; i < g->lane_count; i++)
-            spectrum_store(sum[i], out + (size_t)i * 2u * row, block);
+            spectrum_store(total[i], out + (size_t)i * 2u * row, block);
     }
 }
 
-/* Adds what `count` facets send to every sample of a pixel. */
+/* Adds what `count` facets send to every sample of a pixel.
+ *   lobe, ring   of the pixel's surface, and where the facets stand in it */
 static void add_facets(const incident_facet *facets, uint count, radiometry_record frame,
-                       global const float *spectra, global const float *emissivity,
-                       global float *out)
+                       global const float *spectra, global const float *emissivity, uint lobe,
+                       uint ring, global float *out)
 {
     const uint row = frame.sample_count;
 
@@ -126,12 +47,13 @@ static void add_facets(const incident_facet *facets, uint count, radiometry_reco
         const spectrum second = spectrum_load(spectra + SPECTRA_PLANCK_SECOND * row, block);
         const spectrum sun = spectrum_load(spectra + SPECTRA_SUN * row, block);
         const spectrum sky = spectrum_load(spectra + SPECTRA_SKY * row, block);
-        spectrum sum = spectrum_load(out, block);
+        spectrum sum = (spectrum)0.0f;
         for (uint i = 0; i < count; i++)
             sum += facets[i].weight *
                    incident_radiance(
                        &facets[i], lookup_spectrum(emissivity, row, facets[i].emissivity, block),
                        planck_radiance(first, second, facets[i].temperature_k), sun, sky);
+        sum = spectrum_load(out, block) + sum * lobe_of_ring(emissivity, row, lobe, ring, block);
         spectrum_store(sum, out, block);
     }
 }
@@ -180,16 +102,31 @@ static void add_cells(const incident_group *g, around from, radiometry_record fr
                       incident_cells cells, global const float *spectra,
                       global const float *emissivity, global float *out)
 {
+    const uint of_ring = cells.count / cells.ring_count;
     incident_round round;
 
-    for (uint first = 0; first < cells.count; first += ROUND) {
-        const uint end = min(first + ROUND, cells.count);
+    for (uint first = 0, end; first < cells.count; first = end) {
+        const uint ring = ring_of_cell(cells, first);
+        end = min(first + ROUND, (ring + 1u) * of_ring);
         for (uint i = 0; i < LANES_WIDTH; i++) round.count[i] = 0;
         for (uint c = first; c < end; c++) see_cell(&round, g, from, frame, cells, c);
         for (uint i = 0; i < LANES_WIDTH; i++)
             if (round.count[i] > 0)
-                add_facets(round.seen[i], round.count[i], frame, spectra, emissivity,
-                           out + 2u * i * frame.sample_count);
+                add_facets(round.seen[i], round.count[i], frame, spectra, emissivity, g->lobe[i],
+                           ring, out + 2u * i * frame.sample_count);
+    }
+}
+
+/* Divides what reaches a surface by the sum of its lobe's weights.
+ *   out   of this lane: of the sky, and of facets and ground */
+static void divide_by_lobe(const incident_group *g, uint lane, uint ring_count, uint row,
+                           global const float *emissivity, global float *out)
+{
+    for (uint block = 0; block < row / SPECTRUM_WIDTH; block++) {
+        const spectrum sum =
+            lobe_sum(&g->view, lane, ring_count, emissivity, row, g->lobe[lane], block);
+        for (uint part = 0; part < 2u; part++)
+            spectrum_store(spectrum_load(out + part * row, block) / sum, out + part * row, block);
     }
 }
 
@@ -204,16 +141,19 @@ static incident_group take_group(uint first, radiometry_record frame, around fro
     g.lane_count = min((uint)LANES_WIDTH, frame.pixel_count - first);
     for (uint i = 0; i < LANES_WIDTH; i++) {
         g.kind[i] = INTERACTION_MISSED;
+        g.lobe[i] = RECORD_NONE;
         if (i >= g.lane_count || hit[first + i].facet == RECORD_NONE) continue;
         const background_record mirrored = background[first + i];
         const uint material = from.facets[hit[first + i].facet].material;
         g.kind[i] = pixel_interaction(from.materials[material], mirrored);
         g.facet[i] = mirrored.facet;
         for (int k = 0; k < 3; k++) LANES_SET(normal[k], i, hit[first + i].normal[k]);
-        g.diffuse |= (uint)(g.kind[i] == INTERACTION_DIFFUSE) << i;
+        if (g.kind[i] != INTERACTION_DIFFUSE) continue;
+        g.diffuse |= 1u << i;
+        g.lobe[i] = from.materials[material].lobe_first;
     }
-    g.view = look_around(normal, g.diffuse ? cells.count : 0u, cells.cell, cells.met, first,
-                         frame.pixel_count);
+    if (!g.diffuse) cells.count = 0u;
+    g.view = look_around(normal, cells, first, frame.pixel_count);
     return g;
 }
 
@@ -235,15 +175,16 @@ static void reflect_ray(const incident_group *g, uint lane, radiometry_record fr
  * and share of the sky) or the sky of its direction; a mirror has one ray. Exact counterpart of the
  * background in eq. 2.4-1 and 2.4-2.
  * Launch: (frame.pixel_count / LANES_WIDTH, rounded up).
- * cell: (cell_count, 4), met: (cell_count, pixel_count), see hemisphere.cl; dome: (dome_count, 8)
+ * cell: (how.cell_count, 4), met: (how.cell_count, pixel_count), see hemisphere.cl
+ * dome: (how.dome_count, 8), see sky_weights.h
  * facets, temperature_k, facet_background: per facet, the ground's behind the real ones
  * hit, background, background_lit: per pixel; the last two are read for mirrors
  * spectra, emissivity: as radiometry.cl
  * out: (pixel_count, 2, sample_count), W m-2 sr-1 um-1: of the sky, and of facets and ground */
 kernel void incident(const radiometry_record frame, const camera_record camera,
-                     const uint cell_count, const uint dome_count, global const float *cell,
-                     global const float *dome, global const facet_record *facets,
-                     global const material_record *materials, global const float *temperature_k,
+                     const incident_record how, global const float *cell, global const float *dome,
+                     global const facet_record *facets, global const material_record *materials,
+                     global const float *temperature_k,
                      global const background_record *facet_background, global const hit_record *hit,
                      global const background_record *background, global const float *background_lit,
                      global const uint *met, global const float *spectra,
@@ -252,28 +193,32 @@ kernel void incident(const radiometry_record frame, const camera_record camera,
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= frame.pixel_count) return;
     const around from = {facets, materials, temperature_k, facet_background};
-    const incident_cells cells = {cell_count, cell, met};
+    const incident_cells cells = {how.cell_count, how.ring_count, cell, met};
     const incident_group g = take_group(first, frame, from, cells, hit, background);
     const uint row = frame.sample_count;
     global float *from_sky = out + (size_t)first * 2u * row, *from_facets = from_sky + row;
-    lanes weights[INCIDENT_DIRECTIONS];
+    lanes weights[INCIDENT_WEIGHTS];
     float ray[3];
 
-    count_sky(weights, frame, &g, cells, dome_count, dome);
+    sky_weigh(weights, frame, &g, cells, how.dome_count, dome);
     for (uint i = 0; i < LANES_WIDTH; i++) {
         if (g.kind[i] != INTERACTION_SPECULAR_SKY) continue;
         reflect_ray(&g, i, frame, camera, ray);
         incident_add_sky((float *)weights + i, LANES_WIDTH, frame,
                          sky_find(frame, ray[0], ray[1], ray[2]), 1.0f);
     }
-    write_sky(weights, frame, &g, spectra, from_sky);
+    write_sky(weights, frame, &g, how.ring_count, spectra, emissivity, from_sky);
     for (uint i = 0; i < g.lane_count; i++) {
         for (uint k = 0; k < row; k++) from_facets[i * 2u * row + k] = 0.0f;
         if (g.kind[i] != INTERACTION_SPECULAR_BACKGROUND) continue;
         reflect_ray(&g, i, frame, camera, ray);
         const incident_facet seen =
             see_facet(from, frame, g.facet[i], 1.0f, background_lit[first + i], ray);
-        add_facets(&seen, 1u, frame, spectra, emissivity, from_facets + i * 2u * row);
+        add_facets(&seen, 1u, frame, spectra, emissivity, RECORD_NONE, 0u,
+                   from_facets + i * 2u * row);
     }
     if (g.diffuse) add_cells(&g, from, frame, cells, spectra, emissivity, from_facets);
+    for (uint i = 0; i < g.lane_count; i++)
+        if (g.lobe[i] != RECORD_NONE)
+            divide_by_lobe(&g, i, how.ring_count, row, emissivity, from_sky + i * 2u * row);
 }

@@ -6,9 +6,6 @@
 #include "radiometry.h"
 #include "sky.h"
 
-/* Directions of the sky that one surface can count. */
-#define INCIDENT_DIRECTIONS 1024u
-
 /* A facet as it is seen along one ray. */
 typedef struct incident_facet {
     float weight; /* of the ray */

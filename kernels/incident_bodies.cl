@@ -59,9 +59,15 @@ static body_ray look(const both_trees *trees, around from, radiometry_record fra
     return out;
 }
 
+/* A surface's diffuse lobe, and the ring of it that a ray lies in. */
+typedef struct body_lobe {
+    diffuse_view view;
+    uint first, ring, ring_count; /* first: its row, RECORD_NONE: Lambertian, or a mirror */
+} body_lobe;
+
 /* Adds what bodies change of one ray to every sample. */
-static void add_change(const body_ray *r, radiometry_record frame, body_spectra tables,
-                       global float *out)
+static void add_change(const body_ray *r, const body_lobe *lobe, radiometry_record frame,
+                       body_spectra tables, global float *out)
 {
     const uint row = frame.sample_count;
     global const float *sky = tables.rows + (size_t)(SPECTRA_PATHS + 2u * frame.path_count) * row;
@@ -82,7 +88,11 @@ static void add_change(const body_ray *r, radiometry_record frame, body_spectra 
             after = incident_radiance(&r->seen, e, black, left, diffuse);
         }
         after = transmission_seen(after, tables.extinction, row, &r->way, first, second, block);
-        spectrum_store(spectrum_load(out, block) + r->weight * (after - before), out, block);
+        const spectrum share =
+            lobe_of_ring(tables.emissivity, row, lobe->first, lobe->ring, block) /
+            lobe_sum(&lobe->view, 0u, lobe->ring_count, tables.emissivity, row, lobe->first, block);
+        spectrum_store(spectrum_load(out, block) + r->weight * share * (after - before), out,
+                       block);
     }
 }
 
@@ -92,7 +102,7 @@ static void add_change(const body_ray *r, radiometry_record frame, body_spectra 
  * As incident.cl, and the trees of what is opaque (nodes, blocks) and of bodies; medium, level: see
  * crossing.cl; extinction: (TRANSMISSION_MEDIA, sample_count), per m; out: as incident.cl wrote it */
 kernel void incident_bodies(
-    const radiometry_record frame, const camera_record camera, const uint cell_count,
+    const radiometry_record frame, const camera_record camera, const incident_record how,
     global const float *cell, const world_record world, const crossing_world bodies,
     global const bvh_node *nodes, global const bvh_block *blocks, global const bvh_node *body_nodes,
     global const bvh_block *body_blocks, global const uint *medium, global const float *level,
@@ -111,11 +121,13 @@ kernel void incident_bodies(
     const both_trees trees = {&world,     nodes,       blocks, &bodies,
                               body_nodes, body_blocks, medium, level};
     const body_spectra tables = {spectra, emissivity, extinction};
-    const uint kind = pixel_interaction(materials[facets[at.facet].material], background[pixel]);
-    const uint is_diffuse = kind == INTERACTION_DIFFUSE;
-    const uint rays = is_diffuse ? cell_count : 1u;
-    const diffuse_view view =
-        look_around(at.normal, is_diffuse ? rays : 0u, cell, met, pixel, frame.pixel_count);
+    const material_record material = materials[facets[at.facet].material];
+    const uint is_diffuse = pixel_interaction(material, background[pixel]) == INTERACTION_DIFFUSE;
+    const uint rays = is_diffuse ? how.cell_count : 1u;
+    const incident_cells cells = {is_diffuse ? rays : 0u, how.ring_count, cell, met};
+    body_lobe lobe = {.view = look_around(at.normal, cells, pixel, frame.pixel_count),
+                      .first = is_diffuse ? material.lobe_first : RECORD_NONE,
+                      .ring_count = how.ring_count};
     global float *from_sky = out + (size_t)pixel * 2u * frame.sample_count;
     float direction[3], ray_in[3];
 
@@ -126,14 +138,15 @@ kernel void incident_bodies(
         float weight = 1.0f, lit = background_lit[pixel];
         if (is_diffuse) {
             const uint word = met[(size_t)c * frame.pixel_count + pixel];
-            hemisphere_lanes_direction(&view.axes, cell + 4u * c, direction);
+            hemisphere_lanes_direction(&lobe.view.axes, cell + 4u * c, direction);
             weight = cell[4u * c + 3u];
-            weight *= direction[2] > 0.0f ? view.above : view.below;
+            lobe.ring = ring_of_cell(cells, c);
+            weight *= direction[2] > 0.0f ? lobe.view.above : lobe.view.below;
             lit = word != RECORD_NONE && (word & HEMISPHERE_LIT) ? 1.0f : 0.0f;
         }
         const body_ray r = look(&trees, from, frame, &at, direction, weight, lit);
         if (r.way.length_m[0] > 0.0f || r.sun.length_m[0] > 0.0f)
-            add_change(&r, frame, tables,
+            add_change(&r, &lobe, frame, tables,
                        r.facet == RECORD_NONE ? from_sky : from_sky + frame.sample_count);
     }
 }

@@ -11,6 +11,9 @@
  * one per ring of the hemisphere, see host/lobe.h. */
 #define LOBE_ROWS 1u
 
+/* The most such rings; a finer hemisphere's are joined. */
+#define LOBE_RINGS 9u
+
 /* Below this roughness a lobe is a mirror's. */
 #define LOBE_SMOOTH 1e-4f
 

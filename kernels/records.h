@@ -190,6 +190,18 @@ RECORD_SIZE(air_record, 192);
 #define SPECTRA_SKY 4u           /* L_DE + L_DS, integrated over the hemisphere */
 #define SPECTRA_PATHS 5u
 
+/* Directions of the sky, times rings of lobes, that one surface can count. */
+#define INCIDENT_WEIGHTS 1024u
+
+/* How radiance that reaches surfaces is summed up, see incident.cl. */
+typedef struct incident_record {
+    uint cell_count; /* of the hemisphere */
+    uint dome_count; /* points of the sky */
+    uint ring_count; /* rings of diffuse lobes; divides the rings of cells */
+    uint unused;
+} incident_record;
+RECORD_SIZE(incident_record, 16);
+
 /* A band of the sensor. */
 typedef struct band_record {
     uint first_sample;  /* a multiple of 16 */

@@ -51,33 +51,79 @@ static inline incident_facet see_facet(around from, radiometry_record frame, uin
 typedef struct diffuse_view {
     hemisphere_lanes axes;
     lanes above, below;
-    lanes open; /* the sky's share of an open hemisphere */
-    lanes seen; /* of the cells above the horizon, the share that sees the sky */
+    lanes open;             /* the sky's share of an open hemisphere */
+    lanes seen;             /* of the cells above the horizon, the share that sees the sky */
+    lanes ring[LOBE_RINGS]; /* weights of the rings of diffuse lobes */
 } diffuse_view;
 
-/* Looks at what the rays of pixels first .. first + LANES_WIDTH - 1 of `count` met.
- *   cell   (cell_count, 4), met: (cell_count, count): see hemisphere.cl */
-static inline diffuse_view look_around(const lanes *normal, uint cell_count,
-                                       global const float *cell, global const uint *met, uint first,
+/* The grid of the hemisphere and what its rays met, see hemisphere.cl. */
+typedef struct incident_cells {
+    uint count, ring_count; /* rings of diffuse lobes, each of as many cells */
+    global const float *cell;
+    global const uint *met;
+} incident_cells;
+
+/* Ring of the lobes that a cell lies in; the lowest first. */
+static inline uint ring_of_cell(incident_cells cells, uint c)
+{
+    return c / (cells.count / cells.ring_count);
+}
+
+/* Looks at what the rays of pixels first .. first + LANES_WIDTH - 1 of `count` met. */
+static inline diffuse_view look_around(const lanes *normal, incident_cells cells, uint first,
                                        uint count)
 {
     diffuse_view view = {.axes = hemisphere_lanes_of(normal)};
     const lanes share = 0.5f * (1.0f + normal[2]);
     lanes above = (lanes)0.0f, seen = (lanes)0.0f, direction[3];
+    lanes high[LOBE_RINGS], whole[LOBE_RINGS];
 
-    for (uint c = 0; c < cell_count; c++) {
-        const lanes_bits word = lanes_load_bits(met + (size_t)c * count, first, count);
-        hemisphere_lanes_direction(&view.axes, cell + 4u * c, direction);
-        const lanes weight = direction[2] > 0.0f ? (lanes)cell[4u * c + 3u] : (lanes)0.0f;
+    for (uint r = 0; r < cells.ring_count; r++) high[r] = whole[r] = (lanes)0.0f;
+    for (uint c = 0; c < cells.count; c++) {
+        const lanes_bits word = lanes_load_bits(cells.met + (size_t)c * count, first, count);
+        hemisphere_lanes_direction(&view.axes, cells.cell + 4u * c, direction);
+        const lanes weight = direction[2] > 0.0f ? (lanes)cells.cell[4u * c + 3u] : (lanes)0.0f;
+        const uint ring = ring_of_cell(cells, c);
         above += weight;
         seen += word == RECORD_NONE ? weight : (lanes)0.0f;
+        high[ring] += weight;
+        whole[ring] += cells.cell[4u * c + 3u];
     }
     const lanes_mask has_both = (above > 1e-6f) & (above < 1.0f - 1e-6f);
     view.above = has_both ? share / above : (lanes)1.0f;
     view.below = has_both ? (1.0f - share) / (1.0f - above) : (lanes)1.0f;
     view.open = above * view.above;
     view.seen = above > 0.0f ? seen / above : (lanes)0.0f;
+    for (uint r = 0; r < cells.ring_count; r++)
+        view.ring[r] = view.above * high[r] + view.below * (whole[r] - high[r]);
     return view;
+}
+
+static inline float lane_of(const lanes *from, uint lane)
+{
+    return ((const float *)from)[lane];
+}
+
+/* A diffuse lobe in one of its rings: 1 for a Lambertian surface.
+ *   lobe   its first row, RECORD_NONE: Lambertian */
+static inline spectrum lobe_of_ring(global const float *emissivity, uint row_length, uint lobe,
+                                    uint ring, uint block)
+{
+    if (lobe == RECORD_NONE) return (spectrum)1.0f;
+    return spectrum_load(emissivity + (size_t)(lobe + LOBE_ROWS + ring) * row_length, block);
+}
+
+/* The sum of a lobe's weights, which is 1 but for what the grid misses of the rings. */
+static inline spectrum lobe_sum(const diffuse_view *view, uint lane, uint ring_count,
+                                global const float *emissivity, uint row_length, uint lobe,
+                                uint block)
+{
+    spectrum sum = (spectrum)0.0f;
+
+    if (lobe == RECORD_NONE) return (spectrum)1.0f;
+    for (uint r = 0; r < ring_count; r++)
+        sum += lane_of(&view->ring[r], lane) * lobe_of_ring(emissivity, row_length, lobe, r, block);
+    return sum;
 }
 
 #endif

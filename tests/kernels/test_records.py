@@ -11,7 +11,7 @@ TWINS = {
     "facet_record": records.FACET, "material_record": records.MATERIAL,
     "forcing_record": records.FORCING, "world_record": records.WORLD,
     "background_record": records.BACKGROUND, "camera_record": records.CAMERA,
-    "radiometry_record": records.RADIOMETRY, "band_record": records.BAND,
+    "radiometry_record": records.RADIOMETRY, "incident_record": records.INCIDENT, "band_record": records.BAND,
     "detector_record": records.DETECTOR, "blur_record": records.BLUR, "air_record": records.AIR,
     "conduction_record": records.CONDUCTION,
 }
