@@ -15,7 +15,7 @@
 #define PLANCK_FIRST_THESIS 1.191061999044322e8  /* W um4 m-2 sr-1 */
 #define PLANCK_SECOND_THESIS 1.438786314232309e4 /* um K */
 
-#define SUN_RADIUS_RAD 4.6505e-3f /* IAU 2015: 695700 km seen from 1 au */
+#define SUN_RADIUS_RAD 4.6505e-3f   /* IAU 2015: 695700 km seen from 1 au */
 #define SOLAR_CONSTANT_W_M2 1367.0f /* World Radiation Centre 1981, as the thesis' time used it */
 #define LANGLEY_PER_HOUR_W_M2 11.62222f /* 1 ly = 1 thermochemical cal/cm2 = 41840 J/m2 */
 
