@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CELL_LIMIT = 1 << 22 };
+/* Cells of a work-item that has packets of rays, see kernels/hemisphere.cl. */
+enum { CELL_LIMIT = 1 << 22, CELLS_AT_ONCE = 72 };
 
 static const double radian = 0.017453292519943295;
 
@@ -148,8 +149,10 @@ status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
     const world_record world = ray_scene_world(scene);
     const device_memory nodes = ray_scene_nodes(scene), blocks = ray_scene_blocks(scene);
     device *dev = ray_scene_device(scene);
+    const uint32_t at_once = device_describe(dev)->ray_lanes == 1 ? 1 : CELLS_AT_ONCE;
+    const uint32_t cells = (grid->cell_count + at_once - 1) / at_once;
 
-    TRY(device_run(dev, "hemisphere", device_ray_shape(dev, points->count, grid->cell_count),
+    TRY(device_run(dev, "hemisphere", device_ray_shape(dev, points->count, cells),
                    ARG(points->count), ARG(grid->cell_count), ARG(towards[0]), ARG(towards[1]),
                    ARG(towards[2]), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
                    ARG(points->hit), ARG(points->met)));

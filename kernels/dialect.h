@@ -8,12 +8,15 @@
 #pragma OPENCL FP_CONTRACT OFF
 /* Before a loop of few steps: PoCL unrolls none unasked, and what a loop indexes stays in memory. */
 #define UNROLL _Pragma("unroll")
+/* Before a function that gets code of its own for every constant it is called with. */
+#define INLINE static inline __attribute__((always_inline))
 #define RECORD_SIZE(type, bytes) typedef char type##_size[sizeof(type) == (bytes) ? 1 : -1]
 
 #else
 
 #include <stdint.h>
 #define UNROLL
+#define INLINE static inline
 #ifdef __cplusplus
 #include <cmath>
 #define RECORD_SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type)

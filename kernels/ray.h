@@ -300,13 +300,15 @@ static inline ray ray_leaving(const world_record *world, const float point[3],
     return r;
 }
 
-/* Lets what missed the geometry and goes down meet the endless plane; returns 1 where it did.
- * Level within 1e-6 counts as the sky. */
+/* What goes down by no more than this of its direction counts as level: it meets no endless plane. */
+#define RAY_LEVEL 1e-6f
+
+/* Lets what missed the geometry and goes down meet the endless plane; returns 1 where it did. */
 static inline uint ray_meet_ground(const world_record *world, const ray *r, hit_record *record)
 {
     const float down = -r->direction[2];
 
-    if (world->ground_facet == RECORD_NONE || down <= 1e-6f) return 0;
+    if (world->ground_facet == RECORD_NONE || down <= RAY_LEVEL) return 0;
     record->range_m = fmax((r->origin[2] - world->ground_z_m) / down, 0.0f);
     record->facet = world->ground_facet;
     UNROLL

@@ -18,11 +18,12 @@ typedef struct ray_lanes {
     float16 reciprocal[3], near[3], far[3];
     float16 origin[3]; /* along the shear's x, y and z */
     float16 slope_x, slope_y, scale_z;
-    int16 along_y, along_z; /* the shear's z is that axis of the world, else x */
-    int16 reversed;         /* the direction's largest component is negative */
-    uint axis;              /* the shear's z of all lanes, 3 where they differ */
-    uint octant;            /* of the first lane: bit 0 x, 1 y, 2 z negative */
-    uint coherent;          /* all lanes have this octant: bound is set */
+    int16 along_y, along_z;           /* the shear's z is that axis of the world, else x */
+    int16 reversed;                   /* the direction's largest component is negative */
+    uint axis;                        /* the shear's z of all lanes, 3 where they differ */
+    uint near_plane[3], far_plane[3]; /* of that octant: where a node has them, counted in floats */
+    uint octant;                      /* of the first lane: bit 0 x, 1 y, 2 z negative */
+    uint coherent;                    /* all lanes have this octant: bound is set */
     uint cull_back;
     ray_lanes_bound bound[3];
 } ray_lanes;
@@ -134,7 +135,10 @@ static inline ray_lanes ray_lanes_of(const float origin[3][16], const float dire
         f.near[k] = -o[k] * f.reciprocal[k] - pad * fabs(f.reciprocal[k]);
         f.far[k] = -o[k] * f.reciprocal[k] + pad * fabs(f.reciprocal[k]);
         const uint negative = ray_lanes_mask(f.reciprocal[k] < 0.0f);
-        f.octant |= (negative >> first & 1) << k;
+        const uint is_negative = negative >> first & 1;
+        f.octant |= is_negative << k;
+        f.near_plane[k] = 8 * k + 24 * is_negative;
+        f.far_plane[k] = 8 * k + 24 * !is_negative;
         f.coherent &= negative == 0 || negative == 0xffff;
     }
     UNROLL
@@ -151,10 +155,8 @@ static inline uint ray_lanes_reach(const ray_lanes *f, global const bvh_node *no
 
     UNROLL
     for (int k = 0; k < 3; k++) {
-        global const float *low = node->low[k], *high = node->high[k];
-        const uint negative = f->octant >> k & 1;
-        const float8 a = *(global const float8 *)(negative ? high : low);
-        const float8 b = *(global const float8 *)(negative ? low : high);
+        const float8 a = *(global const float8 *)(node->low[0] + f->near_plane[k]);
+        const float8 b = *(global const float8 *)(node->low[0] + f->far_plane[k]);
         const ray_lanes_bound *n = &f->bound[k];
         from = ray_most(ray_least(fma(a, (float8)n->reciprocal[0], (float8)n->near[0]),
                                   fma(a, (float8)n->reciprocal[1], (float8)n->near[1])),
@@ -168,9 +170,8 @@ static inline uint ray_lanes_reach(const ray_lanes *f, global const bvh_node *no
 
 /* Finds the rays that enter a child before their limits, and where: all bits of a lane.
  *   coherent   of the lanes: a constant, so that each kind has code of its own */
-static inline int16 ray_lanes_enter(const ray_lanes *f, global const bvh_node *node,
-                                    const uint child, const uint coherent, const float16 limit,
-                                    float16 *out_range)
+INLINE int16 ray_lanes_enter(const ray_lanes *f, global const bvh_node *node, const uint child,
+                             const uint coherent, const float16 limit, float16 *out_range)
 {
     float16 from = 0, to = limit;
 
@@ -178,9 +179,8 @@ static inline int16 ray_lanes_enter(const ray_lanes *f, global const bvh_node *n
     for (int k = 0; k < 3; k++) {
         float16 a, b;
         if (coherent) {
-            const uint negative = f->octant >> k & 1;
-            a = (negative ? node->high[k] : node->low[k])[child];
-            b = (negative ? node->low[k] : node->high[k])[child];
+            a = node->low[0][f->near_plane[k] + child];
+            b = node->low[0][f->far_plane[k] + child];
         } else {
             const float16 low = node->low[k][child], high = node->high[k][child];
             const int16 negative = f->reciprocal[k] < 0.0f;
@@ -196,9 +196,8 @@ static inline int16 ray_lanes_enter(const ray_lanes *f, global const bvh_node *n
 
 /* Shears the corners of a triangle.
  *   axis   of the lanes: 3 must be a constant, so that each kind has code of its own */
-static inline void ray_lanes_shear(const ray_lanes *f, global const bvh_block *block,
-                                   const uint lane, const uint axis, float16 x[3], float16 y[3],
-                                   float16 z[3])
+INLINE void ray_lanes_shear(const ray_lanes *f, global const bvh_block *block, const uint lane,
+                            const uint axis, float16 x[3], float16 y[3], float16 z[3])
 {
     const uint axis_x = axis == 2 ? 0 : axis + 1, axis_y = axis == 0 ? 2 : axis - 1;
 
@@ -229,8 +228,8 @@ typedef struct ray_lanes_edges {
     int16 met;
 } ray_lanes_edges;
 
-static inline ray_lanes_edges ray_lanes_edges_of(const ray_lanes *f, global const bvh_block *block,
-                                                 const uint lane, const uint axis)
+INLINE ray_lanes_edges ray_lanes_edges_of(const ray_lanes *f, global const bvh_block *block,
+                                          const uint lane, const uint axis)
 {
     float16 x[3], y[3], z[3];
     ray_lanes_edges e;

@@ -40,22 +40,29 @@ static inline uint ray_order_is_mixed(global const float *direction, const uint 
     return mixed > RAY_BATCH / 16 / 2;
 }
 
+/* Sorts ray numbers by the cells of the rays; those of one cell stay in order. */
+static inline void ray_order_sort(const uchar *cell, const ushort *ray, const uint count,
+                                  ushort *out_order)
+{
+    ushort first[RAY_ORDER_CELLS + 1];
+
+    for (uint i = 0; i <= RAY_ORDER_CELLS; i++) first[i] = 0;
+    for (uint i = 0; i < count; i++) first[cell[ray[i]] + 1]++;
+    for (uint i = 0; i < RAY_ORDER_CELLS; i++) first[i + 1] += first[i];
+    for (uint i = 0; i < count; i++) out_order[first[cell[ray[i]]]++] = ray[i];
+}
+
 /* Puts the rays of a batch in order: as they stand, or by cell; returns 1 for the latter.
  *   direction   (3, stride), moved to the batch; count: up to RAY_BATCH */
 static inline uint ray_order_of(global const float *direction, const uint stride, const uint count,
                                 ushort order[RAY_BATCH])
 {
     uchar cell[RAY_BATCH];
-    ushort first[RAY_ORDER_CELLS + 1];
+    ushort standing[RAY_BATCH];
 
-    if (count < RAY_BATCH || !ray_order_is_mixed(direction, stride, cell)) {
-        for (uint i = 0; i < count; i++) order[i] = (ushort)i;
-        return 0;
-    }
-    for (uint i = 0; i <= RAY_ORDER_CELLS; i++) first[i] = 0;
-    for (uint i = 0; i < RAY_BATCH; i++) first[cell[i] + 1]++;
-    for (uint i = 0; i < RAY_ORDER_CELLS; i++) first[i + 1] += first[i];
-    for (uint i = 0; i < RAY_BATCH; i++) order[first[cell[i]]++] = (ushort)i;
+    for (uint i = 0; i < count; i++) order[i] = standing[i] = (ushort)i;
+    if (count < RAY_BATCH || !ray_order_is_mixed(direction, stride, cell)) return 0;
+    ray_order_sort(cell, standing, count, order);
     return 1;
 }
 

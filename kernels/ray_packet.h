@@ -161,9 +161,9 @@ static inline void ray_packet_closest_single(ray_packet_walk *w, global const bv
 }
 
 /* Looks for nearer triangles in a leaf, for all lanes at once. */
-static inline void ray_packet_closest_leaf(const ray_lanes *f, global const bvh_block *blocks,
-                                           const uint leaf, const uint axis, const int16 active,
-                                           ray_packet_nearest *best)
+INLINE void ray_packet_closest_leaf(const ray_lanes *f, global const bvh_block *blocks,
+                                    const uint leaf, const uint axis, const int16 active,
+                                    ray_packet_nearest *best)
 {
     const uint first = (leaf & ~BVH_LEAF) >> 4, end = first + (leaf & 15);
 
@@ -183,8 +183,8 @@ static inline void ray_packet_closest_leaf(const ray_lanes *f, global const bvh_
 
 /* Tells which lanes meet anything in a leaf: a bit each. A range is above 0 where its two parts have
  * one sign. */
-static inline uint ray_packet_any_leaf(const ray_lanes *f, global const bvh_block *blocks,
-                                       const uint leaf, const uint axis)
+INLINE uint ray_packet_any_leaf(const ray_lanes *f, global const bvh_block *blocks, const uint leaf,
+                                const uint axis)
 {
     const uint first = (leaf & ~BVH_LEAF) >> 4, end = first + (leaf & 15);
     int16 met = 0;
@@ -212,9 +212,8 @@ static inline uint ray_packet_sort(const uint order, const uint mask)
 }
 
 /* Puts the children that a lane enters on the stack, the nearest on top; returns its depth. */
-static inline uint ray_packet_open(const ray_lanes *f, global const bvh_node *node,
-                                   const uint coherent, const float16 limit,
-                                   ray_packet_stack *stack, uint depth)
+INLINE uint ray_packet_open(const ray_lanes *f, global const bvh_node *node, const uint coherent,
+                            const float16 limit, ray_packet_stack *stack, uint depth)
 {
     const uint order = node->order[f->octant];
     const uint mask = coherent ? ray_lanes_reach(f, node, MAXFLOAT) : 0xff;
@@ -272,9 +271,8 @@ done:
 }
 
 /* Puts the children that an active lane enters on the stack, the lanes above the word. */
-static inline uint ray_packet_open_any(const ray_lanes *f, global const bvh_node *node,
-                                       const uint coherent, const uint active, ulong *stack,
-                                       uint depth)
+INLINE uint ray_packet_open_any(const ray_lanes *f, global const bvh_node *node,
+                                const uint coherent, const uint active, ulong *stack, uint depth)
 {
     uint mask = coherent ? ray_lanes_reach(f, node, MAXFLOAT) : 0xff;
 

@@ -100,7 +100,7 @@ class RayWorld:
         met = np.empty((cell_count, count), np.uint32)
         memory = cl.Buffer(self.opencl.context, cl.mem_flags.WRITE_ONLY, met.nbytes)
         width = -(-count // self.lanes)
-        size = (-(-width // local) * local, cell_count)
+        size = (-(-width // local) * local, -(-cell_count // (72 if self.lanes == 16 else 1)))
         kernel = self.opencl.build("hemisphere", f"-DRAY_LANES={self.lanes} {options}")
         kernel(self.opencl.queue, size, (local, 1), np.uint32(count), np.uint32(cell_count),
                *np.float32(sun), self.world[0], self.nodes, self.blocks, cells, hits, memory)

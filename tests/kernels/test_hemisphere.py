@@ -206,3 +206,23 @@ def test_factors_do_not_depend_on_how_points_are_grouped(opencl, local):
     parts = [world.hemisphere(cells, p, material, local=local) for p in np.array_split(hits, 7)]
 
     assert whole.tobytes() == np.concatenate(parts).tobytes()
+
+
+@pytest.mark.parametrize("facing", ["one way", "all ways"])
+def test_words_of_packets_are_those_of_single_rays(opencl, facing):
+    random = np.random.default_rng(4)
+    normal = random.normal(size=(1 if facing == "one way" else 200, 3))
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    hits = points(random.uniform(-1, 1, (200, 3)), normal)
+    hits["facet"][::7] = NONE
+    world = RayWorld(opencl, cases.triangle_soup(300, seed=2))
+    world.world["ground_facet"] = world.facet_count
+    cells = grid(10, 20, READINGS["cosine"])  # 162 cells: three work-items of a packet
+    words = []
+    for world.lanes in (16, 1):
+        words.append(world.cast(len(cells), world.copy(cells), len(hits), world.copy(hits),
+                                (0.6, 0, 0.8)))
+
+    lit = (words[1] != NONE) & (words[1] >> 31 == 1)
+    assert 0.05 < lit.mean() < 0.5
+    assert np.array_equal(words[0], words[1])
