@@ -148,6 +148,7 @@ DATA_CLOUDS := cumulus altostratus stratus stratocumulus nimbostratus
 ## atmosphere-data: make the shipped radiance databases and cloud files again, bit for bit
 atmosphere-data: atmosphere
 	@set -ex; build/radsig-atmosphere make scenes/airport/scene.toml -o scenes/airport/june24_1500z.rad; \
+	build/radsig-atmosphere make scenes/cloud/scene.toml -o scenes/cloud/june24_1500z.radc; \
 	build/radsig-atmosphere make $(DATA)/appendix_a.toml -o $(DATA)/appendix_a.rad; \
 	for s in $(DATA_SETS); do build/radsig-atmosphere make $(DATA)/$$s.toml -o $(DATA)/$$s.radc; done; \
 	for h in $(DATA_HOURS); do build/radsig-atmosphere make $(DATA)/june24_lwir.toml \

@@ -1,5 +1,6 @@
 #include "bodies.h"
 
+#include "../kernels/cloud.h"
 #include "bvh.h"
 #include "scene.h"
 
@@ -76,6 +77,7 @@ static status upload_media(bodies *b)
         b->world.stated_k[i] = (float)m->temperature_k;
         b->world.broad_band_per_m[i] =
             (float)(m->extinction ? m->extinction->broad_band_per_m : m->grey_extinction_per_m);
+        b->world.scatters[i] = m->scattering != NULL;
     }
 out:
     free(medium);
@@ -159,21 +161,39 @@ device_memory bodies_levels(const bodies *b)
     return b->level;
 }
 
+bool bodies_scatter(const bodies *b)
+{
+    for (uint32_t i = 0; i < b->s->medium_count; i++)
+        if (b->world.scatters[i]) return true;
+    return false;
+}
+
+/* A table's value per sample; without one a constant. */
+static void fill(float *row, const double *table, double constant, const double *wavenumber_cm1,
+                 uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        row[i] = (float)(table ? extinction_between(table, wavenumber_cm1[i]) : constant);
+}
+
 status bodies_sample(const bodies *b, const double *wavenumber_cm1, uint32_t count,
                      device_memory *out)
 {
     status rc = STATUS_OK;
-    const size_t values = (size_t)TRANSMISSION_MEDIA * count;
+    const size_t values = (size_t)(CLOUD_GROUND + 1u) * count;
     float *rows = calloc(values + 1, sizeof *rows);
 
     NEED(rows, STATUS_MEMORY, "no memory for the extinction of bodies");
     for (uint32_t m = 0; m < b->s->medium_count; m++) {
-        const scene_material *material = &b->s->materials[b->s->medium_material[m]];
-        for (uint32_t i = 0; i < count; i++)
-            rows[(size_t)m * count + i] =
-                (float)(material->extinction
-                            ? extinction_at(material->extinction, wavenumber_cm1[i])
-                            : material->grey_extinction_per_m);
+        const scene_material *from = &b->s->materials[b->s->medium_material[m]];
+        float *const own = rows + (size_t)m * count;
+        fill(own, from->extinction ? from->extinction->per_m : NULL, from->grey_extinction_per_m,
+             wavenumber_cm1, count);
+        if (!from->scattering) continue;
+        fill(own + (size_t)CLOUD_ALBEDO * count, from->scattering->albedo, 0.0, wavenumber_cm1,
+             count);
+        fill(own + (size_t)CLOUD_ASYMMETRY * count, from->scattering->asymmetry, 0.0,
+             wavenumber_cm1, count);
     }
     TRY(device_allocate(b->dev, out, values * sizeof *rows, rows));
 out:

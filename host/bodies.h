@@ -5,6 +5,8 @@
 #include "../kernels/crossing_world.h"
 #include "device.h"
 
+#include <stdbool.h>
+
 struct scene;
 
 typedef struct bodies bodies;
@@ -25,9 +27,13 @@ device_memory bodies_blocks(const bodies *b);
 device_memory bodies_medium(const bodies *b); /* uint32, per facet: its material's row */
 device_memory bodies_levels(const bodies *b); /* float, shape (level_count, 2): m, K */
 
-/* Samples the extinction of all materials, linear in wavenumber, the last value beyond its ends.
+/* True if light that a body takes may come out again. */
+bool bodies_scatter(const bodies *b);
+
+/* Samples extinction, albedo and asymmetry of all materials, linear in wavenumber, the last value
+ * beyond their ends.
  *   wavenumber_cm1   shape (count)
- *   out              float, shape (TRANSMISSION_MEDIA, count), per m */
+ *   out              float, rows of `count` as CLOUD_... (kernels/cloud.h), per m; the last is 0 */
 status bodies_sample(const bodies *b, const double *wavenumber_cm1, uint32_t count,
                      device_memory *out);
 

@@ -54,12 +54,12 @@ void extinction_free(extinction *e)
     free(e);
 }
 
-double extinction_at(const extinction *e, double wavenumber_cm1)
+double extinction_between(const double *table, double wavenumber_cm1)
 {
     const double last = EXTINCTION_WAVENUMBERS - 1;
     const double place = (EXTINCTION_FIRST_CM1 - wavenumber_cm1) / EXTINCTION_STEP_CM1;
     const double within = fmax(0.0, fmin(place, last));
     const int low = within >= last ? EXTINCTION_WAVENUMBERS - 2 : (int)within;
 
-    return e->per_m[low] + (within - low) * (e->per_m[low + 1] - e->per_m[low]);
+    return table[low] + (within - low) * (table[low + 1] - table[low]);
 }

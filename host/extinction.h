@@ -21,7 +21,9 @@ typedef struct extinction {
 status extinction_read(extinction **out, const char *path);
 void extinction_free(extinction *e);
 
-/* Extinction per m at a wavenumber: linear, the last value beyond the ends. */
-double extinction_at(const extinction *e, double wavenumber_cm1);
+/* Value at a wavenumber of a table on extinction's wavenumbers: linear, the last value beyond the
+ * ends.
+ *   table   shape (EXTINCTION_WAVENUMBERS) */
+double extinction_between(const double *table, double wavenumber_cm1);
 
 #endif

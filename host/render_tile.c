@@ -112,16 +112,24 @@ out:
 static status cross_bodies(const render_tile_memory *t, const render_shared *r,
                            const radiometry_record *frame)
 {
+    status rc = STATUS_OK;
     const world_record world = ray_scene_world(r->rays);
     const crossing_world around = bodies_world(r->bodies);
     const device_memory nodes = bodies_nodes(r->bodies), blocks = bodies_blocks(r->bodies);
     const device_memory medium = bodies_medium(r->bodies), levels = bodies_levels(r->bodies);
+    const device_memory facet_k = temperature_of_facets(r->warmth);
 
-    return device_run(r->dev, "crossing", shape1(t->count), ARG(*frame), ARG(r->camera), ARG(world),
-                      ARG(around), ARG(nodes), ARG(blocks), ARG(medium), ARG(levels),
-                      ARG(t->points.hit), ARG(t->background_hit), ARG(t->lit),
-                      ARG(t->background_lit), ARG(t->body_paths), ARG(t->direct),
-                      ARG(t->background_direct));
+    if (bodies_scatter(r->bodies))
+        TRY(device_run(r->dev, "cloud_ground", shape1(frame->sample_count), ARG(*frame), ARG(world),
+                       ARG(r->tables.facets), ARG(r->tables.materials), ARG(facet_k),
+                       ARG(r->tables.spectrum_rows), ARG(r->tables.emissivity_rows),
+                       ARG(r->tables.extinction_rows)));
+    TRY(device_run(r->dev, "crossing", shape1(t->count), ARG(*frame), ARG(r->camera), ARG(world),
+                   ARG(around), ARG(nodes), ARG(blocks), ARG(medium), ARG(levels),
+                   ARG(t->points.hit), ARG(t->background_hit), ARG(t->lit), ARG(t->background_lit),
+                   ARG(t->body_paths), ARG(t->direct), ARG(t->background_direct)));
+out:
+    return rc;
 }
 
 static status colour(const render_tile_memory *t, const render_shared *r, bool wants_parts)

@@ -275,6 +275,7 @@ void scene_free(scene *s)
         free(s->materials[i].name);
         emissivity_free(s->materials[i].table);
         extinction_free(s->materials[i].extinction);
+        scattering_free(s->materials[i].scattering);
     }
     free(s->materials);
     free(s->material_of);

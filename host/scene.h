@@ -8,11 +8,11 @@
 #include "band.h"
 #include "degradation.h"
 #include "emissivity.h"
-#include "extinction.h"
 #include "forcing.h"
 #include "geometry.h"
 #include "layered.h"
 #include "power.h"
+#include "scattering.h"
 #include "site.h"
 #include "view.h"
 #include "weather.h"
@@ -37,6 +37,7 @@ typedef struct scene_material {
     layered_matter layered;
     uint32_t medium; /* index among the transmissive materials; RECORD_NONE: opaque */
     extinction *extinction;
+    scattering *scattering;       /* NULL: does not scatter */
     double grey_extinction_per_m; /* without a table */
     power_table power;
 } scene_material;

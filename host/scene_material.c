@@ -9,7 +9,7 @@
 /* What one [[material]] states; not-a-number, NULL and -1: nothing. */
 typedef struct stated_material {
     const toml_node *node;
-    const char *name, *emissivity_path, *extinction_path;
+    const char *name, *emissivity_path, *extinction_path, *scattering_path;
     double emissivity, specular_share, temperature_k, thickness_cm;
     double density_kg_m3, specific_heat_j_kg_k, conductivity_w_m_k;
     double solar_absorptance, exposed_area, extinction_per_km;
@@ -51,6 +51,7 @@ static stated_material read_stated(scene_reader *reader, const toml_node *node)
     scene_table_file(&t, "emissivity_file", &m.emissivity_path);
     scene_table_number(&t, "extinction_per_km", 0.0, 1e6, &m.extinction_per_km);
     scene_table_file(&t, "extinction_file", &m.extinction_path);
+    scene_table_file(&t, "scattering_file", &m.scattering_path);
     scene_table_number(&t, "specular_share", 0.0, 1.0, &m.specular_share);
     scene_table_number(&t, "temperature_k", 1.0, 6000.0, &m.temperature_k);
     scene_table_number(&t, "thickness_cm", 1e-4, 1e4, &m.thickness_cm);
@@ -195,6 +196,8 @@ static void read_extinction(const material_sources *from, scene_material *m, con
         path = scene_add_input(from->reader, from->library_node, from->library_folder,
                                known->extinction_file);
     scene_read_medium(from->reader, m, node, path, per_km);
+    if (stated && stated->scattering_path)
+        scene_read_scattering(from->reader, m, node, stated->scattering_path);
 }
 
 static void check_material(scene_reader *reader, const scene_material *m,

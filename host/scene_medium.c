@@ -23,6 +23,18 @@ void scene_read_medium(scene_reader *reader, scene_material *m, const toml_node 
     s->medium_material[s->medium_count++] = (uint32_t)(m - s->materials);
 }
 
+void scene_read_scattering(scene_reader *reader, scene_material *m, const toml_node *node,
+                           const char *path)
+{
+    if (m->medium == RECORD_NONE)
+        scene_fail(reader, node,
+                   "material %s: states scattering_file and is opaque, expected extinction_file or "
+                   "extinction_per_km too",
+                   m->name);
+    else
+        scene_took(reader, scattering_read(&m->scattering, path));
+}
+
 /* Three times the volume that a material's facets enclose, their area, and by how much they do not
  * close: the sum of their areas as vectors. */
 static void measure(const scene *s, uint32_t material, double *volume, double gap[3], double *area)

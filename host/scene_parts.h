@@ -32,6 +32,11 @@ void scene_read_layered(scene_table *t, layered_matter *out);
 void scene_read_medium(scene_reader *reader, scene_material *m, const toml_node *node,
                        const char *path, double per_km);
 
+/* Makes a transmissive material scatter by a table.
+ *   node   what the message about an opaque one names */
+void scene_read_scattering(scene_reader *reader, scene_material *m, const toml_node *node,
+                           const char *path);
+
 /* Checks that bodies are closed, face outwards and have a temperature; when all else is read. */
 void scene_check_media(scene_reader *reader);
 

@@ -33,13 +33,15 @@ kernel void crossing(const radiometry_record frame, const camera_record camera,
     const uint pixel = get_global_id(0);
     if (pixel >= frame.pixel_count) return;
     const hit_record at = hit[pixel], behind = background_hit[pixel];
-    const transmission_path none = {{0.0f}, {0.0f}, {0.0f}, {0}};
+    const transmission_path none = {{0.0f}, {0.0f}, {0.0f}, {0.0f}, {0}};
     transmission_path found[TRANSMISSION_PATHS] = {none, none, none, none};
     ray r = {.limit = at.facet == RECORD_NONE ? INFINITY : at.range_m};
 
     camera_origin(camera, frame.columns, frame.first_pixel + pixel, r.origin);
     pixel_ray(camera, frame.columns, frame.first_pixel + pixel, r.direction);
     found[TRANSMISSION_CAMERA] = crossing_path(&bodies, nodes, blocks, medium, level, &r);
+    if (!frame.thesis)
+        crossing_set_vertical(&bodies, nodes, blocks, medium, &r, &found[TRANSMISSION_CAMERA]);
     if (at.facet != RECORD_NONE && frame.sun[2] > 0.0f) {
         r = ray_leaving(&world, at.point, at.normal, frame.sun);
         found[TRANSMISSION_SUN] = crossing_path(&bodies, nodes, blocks, medium, level, &r);

@@ -148,7 +148,7 @@ static inline transmission_path crossing_path(const crossing_world *bodies,
                                               global const uint *medium, global const float *level,
                                               const ray *r)
 {
-    transmission_path path = {{0.0f}, {0.0f}, {0.0f}, {0}};
+    transmission_path path = {{0.0f}, {0.0f}, {0.0f}, {0.0f}, {0}};
     float start;
     const crossing_sum sum = crossing_along(bodies, nodes, blocks, medium, r, &start);
     uint count = 0;
@@ -175,6 +175,25 @@ static inline transmission_path crossing_path(const crossing_world *bodies,
             stated_k > 0.0f ? stated_k : crossing_air_k(level, bodies->level_count, altitude_m);
     }
     return path;
+}
+
+/* Sets how thick the materials that scatter are, straight up through the middle of the ray's way in
+ * them; where that lies between two bodies of a material, as thick as the way is long. */
+static inline void crossing_set_vertical(const crossing_world *bodies, global const bvh_node *nodes,
+                                         global const bvh_block *blocks, global const uint *medium,
+                                         const ray *r, transmission_path *path)
+{
+    for (uint i = 0; i < TRANSMISSION_MEDIA && path->length_m[i] > 0.0f; i++) {
+        ray up = {.direction = {0.0f, 0.0f, 1.0f}, .limit = INFINITY};
+        float start;
+        if (!bodies->scatters[path->medium[i]]) continue;
+        for (int k = 0; k < 2; k++)
+            up.origin[k] = fma(path->middle_m[i], r->direction[k], r->origin[k]);
+        up.origin[2] = bodies->low[2] - 1.0f;
+        const crossing_sum sum = crossing_along(bodies, nodes, blocks, medium, &up, &start);
+        const float through = sum.length[path->medium[i]];
+        path->vertical_m[i] = through > 0.0f ? through : path->length_m[i];
+    }
 }
 
 #endif

@@ -11,7 +11,8 @@ typedef struct crossing_world {
     uint level_count;                   /* of the air */
     float stated_k[TRANSMISSION_MEDIA]; /* a material's temperature; 0: the air's at its middle */
     float broad_band_per_m[TRANSMISSION_MEDIA]; /* extinction of sunlight */
+    uint scatters[TRANSMISSION_MEDIA];          /* 1: a material has a table of scattering */
 } crossing_world;
-RECORD_SIZE(crossing_world, 64);
+RECORD_SIZE(crossing_world, 80);
 
 #endif

@@ -1,5 +1,6 @@
 /* A pixel a work-item. */
 #define LANES_WIDTH 1
+#include "cloud.h"
 #include "crossing.h"
 #include "surroundings.h"
 
@@ -27,6 +28,7 @@ typedef struct body_ray {
     sky_lookup sky;
     incident_facet seen;
     transmission_path way, sun;
+    uint is_down; /* bodies are seen from above */
 } body_ray;
 
 static transmission_path cross(const both_trees *trees, const ray *r)
@@ -40,13 +42,15 @@ static body_ray look(const both_trees *trees, around from, radiometry_record fra
                      const hit_record *at, const float *direction, float weight, float lit)
 {
     ray r = ray_leaving(trees->world, at->point, at->normal, direction);
-    body_ray out = {.weight = weight};
+    body_ray out = {.weight = weight, .is_down = direction[2] < 0.0f};
     const hit_record met = hemisphere_record(&r, ray_closest(trees->nodes, trees->blocks, &r),
                                              trees->world, trees->blocks);
 
     out.facet = met.facet;
     r.limit = met.facet == RECORD_NONE ? INFINITY : met.range_m;
     out.way = cross(trees, &r);
+    crossing_set_vertical(trees->bodies, trees->body_nodes, trees->body_blocks, trees->medium, &r,
+                          &out.way);
     if (met.facet == RECORD_NONE) {
         out.sky = sky_find(frame, direction[0], direction[1], direction[2]);
         return out;
@@ -87,7 +91,8 @@ static void add_change(const body_ray *r, const body_lobe *lobe, radiometry_reco
             before = incident_radiance(&r->seen, e, black, sun, diffuse);
             after = incident_radiance(&r->seen, e, black, left, diffuse);
         }
-        after = transmission_seen(after, tables.extinction, row, &r->way, first, second, block);
+        after =
+            cloud_seen(after, tables.rows, tables.extinction, frame, &r->way, r->is_down, block);
         const spectrum share =
             lobe_of_ring(tables.emissivity, row, lobe->first, lobe->ring, block) /
             lobe_sum(&lobe->view, 0u, lobe->ring_count, tables.emissivity, row, lobe->first, block);
@@ -100,7 +105,7 @@ static void add_change(const body_ray *r, const body_lobe *lobe, radiometry_reco
  * its rays, and on the sun's to the facets that they met.
  * Launch: (frame.pixel_count).
  * As incident.cl, and the trees of what is opaque (nodes, blocks) and of bodies; medium, level: see
- * crossing.cl; extinction: (TRANSMISSION_MEDIA, sample_count), per m; out: as incident.cl wrote it */
+ * crossing.cl; extinction: see cloud.h; out: as incident.cl wrote it */
 kernel void incident_bodies(
     const radiometry_record frame, const camera_record camera, const incident_record how,
     global const float *cell, const world_record world, const crossing_world bodies,

@@ -1,4 +1,5 @@
 #include "band_temperature.h"
+#include "cloud.h"
 #include "pixel.h"
 #include "radiometry.h"
 
@@ -7,7 +8,7 @@ typedef struct spectra_tables {
     global const float *rows;       /* shape (rows, sample_count): SPECTRA_... of records.h */
     global const float *emissivity; /* shape (rows, sample_count) */
     global const float *incident;   /* of this pixel: shape (2, sample_count); NULL: thesis mode */
-    global const float *extinction; /* shape (TRANSMISSION_MEDIA, sample_count); NULL: no bodies */
+    global const float *extinction; /* see cloud.h; NULL: no bodies */
     global const transmission_path *bodies; /* of this pixel: shape (TRANSMISSION_PATHS), strided */
     global float *terms; /* of this pixel, written: shape (SENSOR_TERMS, sample_count); or NULL */
 } spectra_tables;
@@ -61,9 +62,7 @@ static spectrum see_through(spectrum radiance, spectra_tables tables, radiometry
 {
     if (!tables.extinction) return radiance;
     const transmission_path bodies = load_path(tables, frame, path);
-    return transmission_seen(radiance, tables.extinction, frame.sample_count, &bodies,
-                             load_row(tables, frame, SPECTRA_PLANCK_FIRST, block),
-                             load_row(tables, frame, SPECTRA_PLANCK_SECOND, block), block);
+    return cloud_seen(radiance, tables.rows, tables.extinction, frame, &bodies, 0u, block);
 }
 
 /* Puts the bodies on the sensor's way into its transmission and radiance. As printed (eq. 2.4-1) all
@@ -73,8 +72,7 @@ static void put_bodies(const pixel_state *pixel, spectra_tables tables, radiomet
                        const air_record *air, uint block, air_terms *terms)
 {
     const transmission_path bodies = load_path(tables, frame, TRANSMISSION_CAMERA);
-    const spectrum first = load_row(tables, frame, SPECTRA_PLANCK_FIRST, block);
-    const spectrum second = load_row(tables, frame, SPECTRA_PLANCK_SECOND, block);
+    const uint from_above = pixel->way.up < 0.0f;
     const spectrum nothing = (spectrum)0.0f;
     spectrum through = (spectrum)1.0f, sum = nothing, before = nothing;
 
@@ -85,9 +83,10 @@ static void put_bodies(const pixel_state *pixel, spectra_tables tables, radiomet
                           pixel->interaction == INTERACTION_MISSED ? nothing : terms->radiance};
         if (!frame.thesis)
             upto = air_upto(tables.rows, frame, air, pixel->way, bodies.middle_m[i], block);
-        sum += through * (upto.radiance - before) +
-               through * upto.transmission * (1.0f - own) *
-                   planck_radiance(first, second, bodies.temperature_k[i]);
+        sum +=
+            through * (upto.radiance - before) +
+            through * upto.transmission * (1.0f - own) *
+                cloud_of_way(tables.rows, tables.extinction, frame, &bodies, i, from_above, block);
         before = upto.radiance;
         through *= own;
     }
@@ -257,7 +256,7 @@ static pixel_state pixel_look(radiometry_record frame, const air_record *air, ca
  * spectra: shape (rows, sample_count), see SPECTRA_...; emissivity: shape (rows, sample_count)
  * incident: shape (pixel_count, 2, sample_count), see incident.cl; NULL in thesis mode, which takes
  *   the mean background instead
- * extinction: shape (TRANSMISSION_MEDIA, sample_count), per m; bodies: see crossing.cl; both NULL in
+ * extinction: rows of CLOUD_... (cloud.h), per m; bodies: see crossing.cl; both NULL in
  *   a scene without transmissive bodies
  * bands: band_record; ln_radiance: shape (band_count, BAND_TEMPERATURES)
  * terms: shape (pixel_count, SENSOR_TERMS, sample_count), W m-2 sr-1 um-1: what the radiance at the

@@ -13,10 +13,11 @@
 typedef struct transmission_path {
     float length_m[TRANSMISSION_MEDIA]; /* inside, of all bodies of the material; 0: no further */
     float temperature_k[TRANSMISSION_MEDIA];
-    float middle_m[TRANSMISSION_MEDIA]; /* range of the middle of what is inside */
-    uint medium[TRANSMISSION_MEDIA];    /* row of the extinction */
+    float middle_m[TRANSMISSION_MEDIA];   /* range of the middle of what is inside */
+    float vertical_m[TRANSMISSION_MEDIA]; /* straight up through that middle; 0: does not scatter */
+    uint medium[TRANSMISSION_MEDIA];      /* row of the extinction */
 } transmission_path;
-RECORD_SIZE(transmission_path, 64);
+RECORD_SIZE(transmission_path, 80);
 
 /* The ways of a pixel: sensor to target, target to sun, target to background, background to sun. */
 #define TRANSMISSION_CAMERA 0u
@@ -70,20 +71,6 @@ static inline spectrum transmission_along(global const float *extinction, uint r
     for (uint i = 0; i < TRANSMISSION_MEDIA && path->length_m[i] > 0.0f; i++)
         out *= transmission_part(extinction, row_length, path, i, block);
     return out;
-}
-
-/* What comes through all bodies on a way, and from them; the nearest is the last that it meets.
- *   first, second   of Planck's law */
-static inline spectrum transmission_seen(spectrum radiance, global const float *extinction,
-                                         uint row_length, const transmission_path *path,
-                                         spectrum first, spectrum second, uint block)
-{
-    for (uint i = TRANSMISSION_MEDIA; i-- > 0;)
-        if (path->length_m[i] > 0.0f)
-            radiance = transmission_through(
-                radiance, transmission_part(extinction, row_length, path, i, block),
-                planck_radiance(first, second, path->temperature_k[i]));
-    return radiance;
 }
 
 #endif

@@ -51,10 +51,10 @@ static void extinction_is_linear_between_rows_and_constant_beyond_them(void **st
 
     (void)state;
     assert_int_equal(extinction_read(&e, text_file_with(table, "", "")), STATUS_OK);
-    assert_near(extinction_at(e, 950.0), 0.025977480, 1e-12);
-    assert_near(extinction_at(e, 900.0), .5 * (e->per_m[389] + e->per_m[390]), 1e-12);
-    assert_near(extinction_at(e, 5e4), 0.020470046, 1e-12);
-    assert_near(extinction_at(e, 100.0), e->per_m[395], 1e-12);
+    assert_near(extinction_between(e->per_m, 950.0), 0.025977480, 1e-12);
+    assert_near(extinction_between(e->per_m, 900.0), .5 * (e->per_m[389] + e->per_m[390]), 1e-12);
+    assert_near(extinction_between(e->per_m, 5e4), 0.020470046, 1e-12);
+    assert_near(extinction_between(e->per_m, 100.0), e->per_m[395], 1e-12);
     extinction_free(e);
 }
 

@@ -12,7 +12,8 @@ import tree
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import cases  # noqa: E402
 
-BODIES = records.record("low[3] high[3] altitude_m *level_count stated_k[4] broad_band_per_m[4]")
+BODIES = records.record("low[3] high[3] altitude_m *level_count stated_k[4] broad_band_per_m[4]"
+                        " *scatters[4]")
 LEVELS = np.float32([[300, 290], [1300, 280], [2300, 285]])
 BODY = """
 #include "crossing.h"
@@ -25,6 +26,9 @@ kernel void probe(const crossing_world bodies, global const bvh_node *nodes,
     for (int k = 0; k < 3; k++) r.origin[k] = rays[7 * i + k];
     for (int k = 0; k < 3; k++) r.direction[k] = rays[7 * i + 3 + k];
     out[i] = crossing_path(&bodies, nodes, blocks, medium, level, &r);
+    transmission_path path = out[i];
+    crossing_set_vertical(&bodies, nodes, blocks, medium, &r, &path);
+    out[i] = path;
 }
 """
 
@@ -39,6 +43,7 @@ def paths(opencl):
         bodies = np.zeros(1, BODIES)
         bodies["low"], bodies["high"], bodies["altitude_m"] = low, high, 300
         bodies["level_count"], bodies["stated_k"] = len(LEVELS), stated_k
+        bodies["scatters"] = (0, 1, 1, 1)
         origin, direction = np.broadcast_arrays(np.atleast_2d(np.float64(origin)), direction)
         direction = direction / np.linalg.norm(direction, axis=1, keepdims=True)
         limits = np.broadcast_to(limit, len(origin))[:, None]
@@ -169,6 +174,29 @@ def test_the_middle_of_a_body_is_told_by_its_range(paths):
     found = paths(box, 0, (1, 2, 4000), (0, 0, -1), 4000)[0]
 
     assert found["middle_m"][0] == pytest.approx(3500, rel=1e-6)
+
+
+def test_a_body_is_as_thick_upwards_as_it_is_at_the_middle_of_the_way(paths):
+    slanted = paths(cases.box((-100, -100, 400), (100, 100, 600)), 1, (-700, 0, 900), (1, 0, -.5))[0]
+    inside = paths(cases.box((-100, -100, 400), (100, 100, 600)), 1, (0, 0, 550), (1, .1, .1))[0]
+
+    assert slanted["length_m"][0] > 100
+    assert slanted["vertical_m"][0] == pytest.approx(200, rel=1e-5)
+    assert inside["vertical_m"][0] == pytest.approx(200, rel=1e-5)
+
+
+def test_where_nothing_is_above_the_middle_the_way_s_length_counts(paths):
+    mesh = cases.join(cases.box((-30, -5, -5), (-10, 5, 5)), cases.box((10, -5, -5), (30, 5, 5)))
+
+    found = paths(mesh, 1, (-100, .1, .2), (1, 0, 0))[0]
+
+    assert found["vertical_m"][0] == pytest.approx(40, rel=1e-5)
+
+
+def test_what_does_not_scatter_has_no_thickness_upwards(paths):
+    found = paths(cases.box((-1, -1, 5), (1, 1, 6)), 0, (.1, .2, 20), (0, 0, -1))[0]
+
+    assert found["length_m"][0] > 0 and found["vertical_m"][0] == 0
 
 
 @pytest.mark.parametrize("z, direction", [(20, (0, 0, 1)), (20, (1, 0, 0)), (0, (0, 1, 0))])

@@ -75,3 +75,20 @@ def test_the_dense_cloud_looks_colder_than_the_ground_and_than_its_own_air(plane
     # The database's air has 16.55 C at 1000 m; colder air lies between there and the sensor.
     assert 10 < coldest < 16.55
     assert coldest < np.median(planes["apparent_temperature_lwir_c"]) - .5
+
+
+def test_in_the_visible_the_dense_cloud_is_white_and_its_shadow_lies_away_from_the_sun(planes):
+    radiance, grass = planes["radiance_vis"], planes["material"] == 4
+
+    white = np.argwhere(radiance > 3 * np.median(radiance))
+    shadow = np.argwhere(planes["sunlit"] < .01)
+
+    assert len(white) > 100
+    # Some 1000 W m-2 um-1 over .25 um, of which 16 in optical thickness sends back about .6.
+    assert radiance.max() == pytest.approx(.6 * 1000 * .25 / np.pi, rel=.2)
+    # The morning sun stands in the east, right in the picture; the cloud looks 800 m further back.
+    assert np.median(shadow[:, 1]) < np.median(white[:, 1]) - 20
+    # Soil is black in the visible: what is seen there is the air.
+    of_grass = radiance - np.median(radiance[planes["material"] == 30])
+    shaded, lit = (np.median(of_grass[grass & at]) for at in (planes["sunlit"] < .01, planes["sunlit"] == 1))
+    assert shaded < .6 * lit
