@@ -4,7 +4,6 @@
 #include "render_output.h"
 
 #include <getopt.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +29,7 @@ static const char help[] =
     "  --probe COLUMN,ROW     also the spectra of that pixel, counted from 0,0 at the top left:\n"
     "                         NAME_probe_COLUMN_ROW.csv and .png, every term of its radiance\n"
     "  --exr                  write NAME.exr above 16 bands too\n"
-    "  --device N             OpenCL device, see radsig devices\n";
+    "  --device N[,M...]      OpenCL devices, see radsig devices; several share the tiles\n";
 
 static volatile sig_atomic_t stop;
 
@@ -40,11 +39,14 @@ static void on_signal(int signal_number)
     stop = 1;
 }
 
+enum { DEVICE_LIMIT = 16 };
+
 typedef struct arguments {
     command_settings settings;
     render_output_options output;
     const char *bands;
-    double device;
+    int device[DEVICE_LIMIT];
+    size_t device_count;
 } arguments;
 
 static bool add_size(command_settings *settings, const char *text)
@@ -91,7 +93,7 @@ static bool take_option(arguments *a, int option, const char *value)
     case 'P':
         return take_probe(&a->output, value);
     case 'd':
-        return command_number(value, 0.0, 63.0, &a->device) && a->device == floor(a->device);
+        return command_device_numbers(value, DEVICE_LIMIT, a->device, &a->device_count);
     default:
         a->output.wants_exr = true;
         return true;
@@ -146,16 +148,16 @@ static status run(const arguments *a)
 {
     status rc = STATUS_OK;
     scene *s = NULL;
-    device *dev = NULL;
+    device *dev[DEVICE_LIMIT] = {NULL};
 
     TRY(command_scene_read(&s, a->output.scene_path, &a->settings));
     if (a->bands) TRY(scene_keep_bands(s, a->bands));
-    TRY(device_open(&dev, (int)a->device));
-    TRY(render_output(s, dev, &a->output));
+    for (size_t i = 0; i < a->device_count; i++) TRY(device_open(&dev[i], a->device[i]));
+    TRY(render_output(s, dev, a->device_count, &a->output));
 out:
     /* A signal can also break off what the system was doing. */
     if (rc != STATUS_OK && stop) rc = status_set(STATUS_INTERRUPTED, "interrupted");
-    device_free(dev);
+    for (size_t i = 0; i < a->device_count; i++) device_free(dev[i]);
     scene_free(s);
     return rc;
 }
@@ -166,7 +168,8 @@ int command_render(int argc, char **argv)
     int code;
 
     if (!a) return command_end("render", status_set(STATUS_MEMORY, "no memory"));
-    a->device = -1.0;
+    a->device[0] = -1;
+    a->device_count = 1;
     a->output.stop = &stop;
     a->output.shows_progress = isatty(STDERR_FILENO);
     code = take_arguments(a, argc, argv);

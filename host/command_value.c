@@ -11,6 +11,23 @@ bool command_number(const char *text, double low, double high, double *out)
     return !strchr(text, ',') && record_numbers(text, 1, out) == 1 && *out >= low && *out <= high;
 }
 
+bool command_device_numbers(const char *text, int most, int *out, size_t *out_count)
+{
+    size_t count = 0;
+
+    for (const char *at = text;; at++) {
+        int index = 0, digits = 0;
+        for (; *at >= '0' && *at <= '9' && digits < 3; digits++) index = 10 * index + *at++ - '0';
+        if (digits == 0 || index > 63 || count == (size_t)most) return false;
+        for (size_t i = 0; i < count; i++)
+            if (out[i] == index) return false;
+        out[count++] = index;
+        if (*at == ',') continue;
+        *out_count = count;
+        return *at == '\0';
+    }
+}
+
 bool command_place(const char *text, double *latitude_deg, double *longitude_deg)
 {
     const char *comma = strchr(text, ',');

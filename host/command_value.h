@@ -9,6 +9,9 @@
 /* Takes one number from low to high. */
 bool command_number(const char *text, double low, double high, double *out);
 
+/* Takes up to `most` different numbers of devices, 0 to 63, with commas between. */
+bool command_device_numbers(const char *text, int most, int *out, size_t *out_count);
+
 /* Takes LAT,LON in degrees, north- and east-positive. */
 bool command_place(const char *text, double *latitude_deg, double *longitude_deg);
 

@@ -116,7 +116,10 @@ status device_list(device_info **out_info, size_t *out_count)
     TRY(find_devices(choices, &count));
     info = calloc(count, sizeof *info);
     NEED(info, STATUS_MEMORY, "no memory for the list of devices");
-    for (size_t i = 0; i < count; i++) describe(&info[i], choices[i].platform, choices[i].id);
+    for (size_t i = 0; i < count; i++) {
+        describe(&info[i], choices[i].platform, choices[i].id);
+        info[i].index = (uint32_t)i;
+    }
     for (size_t i = count; i-- > 0;)
         if (!strcmp(info[i].type, "cpu")) preferred = i;
     info[preferred].is_default = true;

@@ -15,6 +15,7 @@ typedef struct _cl_mem *device_memory;
 /* What OpenCL says of a device; texts are cut to fit. */
 typedef struct device_info {
     char platform[256], name[256], version[256], type[16];
+    uint32_t index; /* as device_open counts */
     uint32_t compute_units;
     uint64_t memory_bytes, allocation_bytes;
     uint32_t

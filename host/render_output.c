@@ -2,6 +2,7 @@
 
 #include "clock.h"
 #include "quick_look.h"
+#include "render_pool.h"
 #include "render_probe.h"
 #include "render_sensor.h"
 #include "render_summary.h"
@@ -14,7 +15,7 @@
 typedef struct writing {
     const scene *s;
     const render_output_options *options;
-    render *r;
+    render_pool *pool;
     const render_plane *planes;
     size_t plane_count;
     output_folder *folder;
@@ -100,7 +101,7 @@ out:
     return rc;
 }
 
-static status open_writing(writing *w, const scene *s, device *dev,
+static status open_writing(writing *w, const scene *s, device *const *dev, size_t dev_count,
                            const render_output_options *options)
 {
     status rc = STATUS_OK;
@@ -108,8 +109,8 @@ static status open_writing(writing *w, const scene *s, device *dev,
     *w = (writing){.s = s, .options = options};
     site_format_time(s->place.time_s, 0, w->time);
     TRY(check_probe(s, options));
-    TRY(render_open(&w->r, s, dev));
-    w->planes = render_planes(w->r, &w->plane_count);
+    TRY(render_pool_open(&w->pool, s, dev, dev_count));
+    w->planes = render_planes(render_pool_render(w->pool), &w->plane_count);
     TRY(check_names(w));
     w->values = calloc(w->plane_count, sizeof *w->values);
     w->materials = malloc((s->material_count + 1) * sizeof *w->materials);
@@ -132,38 +133,28 @@ static void free_writing(writing *w)
     output_folder_free(w->folder);
     free(w->materials);
     free(w->values);
-    render_free(w->r);
+    render_pool_free(w->pool);
 }
 
-static void show_progress(const writing *w, uint64_t done, uint64_t all)
+static void show_progress(void *listener, uint32_t done)
 {
-    if (w->options->percent) *w->options->percent = (sig_atomic_t)(100 * done / all);
+    const writing *w = listener;
+    const uint32_t all = (uint32_t)w->s->camera.columns * (uint32_t)w->s->camera.rows;
+
+    image_unload(w->cube);
+    if (w->truth) image_unload(w->truth);
+    if (w->options->percent) *w->options->percent = (sig_atomic_t)(100 * (uint64_t)done / all);
     if (!w->options->shows_progress) return;
-    fprintf(stderr, "\r%s: %3.0f %% of %llu pixels%s", w->s->name,
-            floor(100.0 * (double)done / (double)all), (unsigned long long)all,
+    fprintf(stderr, "\r%s: %3.0f %% of %u pixels%s", w->s->name, floor(100.0 * done / all), all,
             done == all ? "\n" : "");
 }
 
 static status render_pixels(writing *w)
 {
     status rc = STATUS_OK;
-    const uint64_t all = (uint64_t)w->s->camera.columns * (uint64_t)w->s->camera.rows;
-    uint32_t most = render_tile_limit(w->r);
 
-    for (uint64_t done = 0; done < all;) {
-        const uint32_t count = all - done < most ? (uint32_t)(all - done) : most;
-        NEED(!*w->options->stop, STATUS_INTERRUPTED, "interrupted");
-        rc = render_tile(w->r, (uint32_t)done, count, w->values);
-        if (rc == STATUS_MEMORY && most > 1) {
-            most /= 2;
-            continue;
-        }
-        TRY(rc);
-        done += count;
-        image_unload(w->cube);
-        if (w->truth) image_unload(w->truth);
-        show_progress(w, done, all);
-    }
+    TRY(render_pool_run(w->pool, w->values, show_progress, w, w->options->stop));
+    w->planes = render_planes(render_pool_render(w->pool), &w->plane_count);
 out:
     return rc;
 }
@@ -221,13 +212,14 @@ out:
 }
 
 /* What the sensor makes of the radiance, if the scene says how. */
-static status write_sensor(writing *w, device *dev, const image_header *header)
+static status write_sensor(writing *w, const image_header *header)
 {
     status rc = STATUS_OK;
     char name[512];
 
     if (!w->s->sensor.is_wanted) return STATUS_OK;
-    TRY(render_sensor_write(&w->sensor, w->folder, w->s, dev, w->cube, header));
+    TRY(render_sensor_write(&w->sensor, w->folder, w->s, render_pool_device(w->pool, 0), w->cube,
+                            header));
     for (uint32_t i = 0; i < w->s->band_count; i++) {
         const image_plane *plane = image_plane_at(w->sensor, i);
         const quick_look look = {.columns = image_columns(w->sensor),
@@ -244,7 +236,7 @@ out:
     return rc;
 }
 
-static status write_files(writing *w, device *dev, double start)
+static status write_files(writing *w, double start)
 {
     status rc = STATUS_OK;
     char description[512], name[512];
@@ -261,9 +253,10 @@ static status write_files(writing *w, device *dev, double start)
                             &header));
     TRY(image_finish(w->cube, &header));
     if (w->truth) TRY(image_finish(w->truth, &header));
-    TRY(write_sensor(w, dev, &header));
+    TRY(write_sensor(w, &header));
     if (w->options->wants_probe)
-        TRY(render_probe_write(w->folder, w->s, w->r, w->options->probe[0], w->options->probe[1]));
+        TRY(render_probe_write(w->folder, w->s, render_pool_render(w->pool), w->options->probe[0],
+                               w->options->probe[1]));
     const render_summary summary = {.s = w->s,
                                     .scene_path = w->options->scene_path,
                                     .planes = w->planes,
@@ -271,8 +264,7 @@ static status write_files(writing *w, device *dev, double start)
                                     .plane_count = w->plane_count,
                                     .sensor = w->sensor,
                                     .materials = w->materials,
-                                    .r = w->r,
-                                    .dev = dev,
+                                    .pool = w->pool,
                                     .start_s = start};
     TRY(render_summary_write(w->folder, file_name(name, w->s, "", ".json"), &summary));
     NEED(!*w->options->stop, STATUS_INTERRUPTED, "interrupted");
@@ -281,15 +273,16 @@ out:
     return rc;
 }
 
-status render_output(const scene *s, device *dev, const render_output_options *options)
+status render_output(const scene *s, device *const *dev, size_t dev_count,
+                     const render_output_options *options)
 {
     status rc = STATUS_OK;
     const double start_s = clock_now_s();
     writing w = {0};
 
-    TRY(open_writing(&w, s, dev, options));
+    TRY(open_writing(&w, s, dev, dev_count, options));
     TRY(render_pixels(&w));
-    TRY(write_files(&w, dev, start_s));
+    TRY(write_files(&w, start_s));
 out:
     free_writing(&w);
     return rc;

@@ -22,8 +22,9 @@ typedef struct render_output_options {
     const volatile sig_atomic_t *stop; /* ends the render with STATUS_INTERRUPTED when it is set */
 } render_output_options;
 
-/* Renders and writes NAME.img, NAME_truth.img, their headers, NAME.exr, NAME_<plane>.png and
+/* Renders on the devices and writes NAME.img, NAME_truth.img, their headers, NAME.exr, NAME_<plane>.png and
  * NAME.json; all of them appear together at the end, or nothing does. */
-status render_output(const scene *s, device *dev, const render_output_options *options);
+status render_output(const scene *s, device *const *dev, size_t dev_count,
+                     const render_output_options *options);
 
 #endif

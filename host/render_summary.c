@@ -5,8 +5,9 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-enum { STAGE_LIMIT = 64, SETTING_COUNT = 7 };
+enum { STAGE_LIMIT = 256, DEVICE_TEXT = 1024, SETTING_COUNT = 7 };
 
 typedef struct lists {
     render_report_band *bands;
@@ -56,12 +57,17 @@ static status list_stages(lists *l, const render_summary *summary)
 {
     status rc = STATUS_OK;
     const device_time *times;
+    char label[64] = "kernel ";
     size_t count;
-    const render_stage *stages = render_stages(summary->r, &count);
+    const render_stage *stages = render_stages(render_pool_render(summary->pool), &count);
+    device *dev;
 
     for (size_t i = 0; i < count; i++) add_stage(l, "host ", stages[i].name, stages[i].seconds);
-    TRY(device_times(summary->dev, &times, &count));
-    for (size_t i = 0; i < count; i++) add_stage(l, "kernel ", times[i].kernel, times[i].seconds);
+    for (size_t d = 0; (dev = render_pool_device(summary->pool, d)); d++) {
+        if (d > 0) snprintf(label, sizeof label, "device %u kernel ", device_describe(dev)->index);
+        TRY(device_times(dev, &times, &count));
+        for (size_t i = 0; i < count; i++) add_stage(l, label, times[i].kernel, times[i].seconds);
+    }
     add_stage(l, "", "all but reading", clock_now_s() - summary->start_s);
 out:
     return rc;
@@ -89,13 +95,22 @@ out:
     return rc;
 }
 
+/* Adds to a list with commas between; what does not fit is cut. */
+static void append(char list[DEVICE_TEXT], const char *text)
+{
+    const size_t length = strlen(list);
+
+    snprintf(list + length, DEVICE_TEXT - length, "%s%s", length ? ", " : "", text);
+}
+
 status render_summary_write(output_folder *folder, const char *name, const render_summary *summary)
 {
     status rc = STATUS_OK;
     const scene *s = summary->s;
-    const device_info *info = device_describe(summary->dev);
+    char platform[DEVICE_TEXT] = "", device_name[DEVICE_TEXT] = "", version[DEVICE_TEXT] = "";
     char time[SITE_TIME_SIZE];
     lists l = {0};
+    device *dev;
     const render_report_setting settings[SETTING_COUNT] = {
         {"hemisphere_step_deg.zenith", NULL, s->hemisphere_zenith_step_deg},
         {"hemisphere_step_deg.azimuth", NULL, s->hemisphere_azimuth_step_deg},
@@ -106,6 +121,11 @@ status render_summary_write(output_folder *folder, const char *name, const rende
         {"sensor.frame", NULL, s->sensor.frame}};
 
     site_format_time(s->place.time_s, s->place.utc_offset_min, time);
+    for (size_t d = 0; (dev = render_pool_device(summary->pool, d)); d++) {
+        append(platform, device_describe(dev)->platform);
+        append(device_name, device_describe(dev)->name);
+        append(version, device_describe(dev)->version);
+    }
     TRY(gather(&l, summary));
     const render_report report = {
         .scene = s->name,
@@ -115,9 +135,9 @@ status render_summary_write(output_folder *folder, const char *name, const rende
         .time = time,
         .latitude_deg = s->place.latitude_deg,
         .longitude_deg = s->place.longitude_deg,
-        .platform = info->platform,
-        .device = info->name,
-        .device_version = info->version,
+        .platform = platform,
+        .device = device_name,
+        .device_version = version,
         .columns = (uint32_t)s->camera.columns,
         .rows = (uint32_t)s->camera.rows,
         .band = l.bands,

@@ -2,7 +2,7 @@
 #ifndef RENDER_SUMMARY_H
 #define RENDER_SUMMARY_H
 
-#include "render.h"
+#include "render_pool.h"
 
 typedef struct render_summary {
     const scene *s;
@@ -12,8 +12,7 @@ typedef struct render_summary {
     size_t plane_count;
     const image *sensor;          /* NULL: none was written */
     const image_label *materials; /* shape (s->material_count) */
-    const render *r;
-    device *dev;
+    render_pool *pool;
     double start_s; /* monotonic clock */
 } render_summary;
 

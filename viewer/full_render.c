@@ -42,7 +42,7 @@ static status run(full_render *full)
         s->camera.crop = stated.crop;
     }
     TRY(device_open(&dev, -1));
-    TRY(render_output(s, dev, &options));
+    TRY(render_output(s, &dev, 1, &options));
 out:
     device_free(dev);
     scene_free(s);

@@ -1,5 +1,6 @@
 """radsig devices, and what is said where OpenCL is missing or wrong."""
 import os
+import pathlib
 import re
 
 import pytest
@@ -83,3 +84,101 @@ def test_devices_takes_no_arguments(program):
     done = program.run("devices", "extra")
 
     assert done.returncode == 2 and "'extra'" in done.stderr
+
+
+def render_on(program, scene, out, numbers, environment, *options):
+    return program.run("render", scene, "-o", out, "--device", numbers, *options,
+                       env={**os.environ, **environment})
+
+
+@pytest.mark.parametrize("kinds, mode", [("pthread pthread", "exact"),
+                                         ("basic pthread", "thesis")])
+def test_two_devices_give_the_bits_of_one(program, tmp_path, kinds, mode):
+    scene = program.write_scene(tmp_path)
+    options = ("--size", "160x160", "--mode", mode)  # tiles of 4096 pixels
+
+    for numbers in ("0", "0,1", "1,0"):
+        done = render_on(program, scene, tmp_path / numbers, numbers, {"POCL_DEVICES": kinds},
+                         *options)
+        assert done.returncode == 0 and done.stderr == ""
+
+    one, *others = [[(tmp_path / numbers / name).read_bytes()
+                     for name in ("plane.img", "plane_truth.img", "plane.hdr", "plane.exr")]
+                    for numbers in ("0", "0,1", "1,0")]
+    assert all(other == one for other in others)
+
+
+def test_the_report_names_all_devices_and_what_each_did(program, tmp_path):
+    scene = program.write_scene(tmp_path)
+
+    render_on(program, scene, tmp_path / "out", "0,1", {"POCL_DEVICES": "basic pthread"}, "--size",
+              "160x160")
+
+    report = program.load(tmp_path / "out").report
+    assert report["device"]["name"].startswith("basic")
+    assert ", pthread" in report["device"]["name"]
+    assert {"kernel primary", "device 1 kernel primary"} <= report["timings_s"].keys()
+
+
+@pytest.fixture
+def with_oclgrind(tmp_path):
+    """An environment with two devices, of PoCL and of Oclgrind 21.10, which does not know all that
+    its compiler makes of the kernels: a device that fails at its first tile."""
+    library = pathlib.Path("/usr/lib/oclgrind/liboclgrind-rt-icd.so")
+    pocl = pathlib.Path("/etc/OpenCL/vendors/pocl.icd")
+    if not (library.exists() and pocl.exists()):
+        pytest.skip("needs the packages oclgrind and pocl-opencl-icd")
+    folder = tmp_path / "both"
+    folder.mkdir()
+    (folder / "pocl.icd").write_text(pocl.read_text())
+    (folder / "oclgrind.icd").write_text(f"{library}\n")
+    return {"OCL_ICD_VENDORS": f"{folder}/", "OPENCL_VENDOR_PATH": f"{folder}/"}
+
+
+def oclgrind_and_pocl(program, environment):
+    lines = program.run("devices", env={**os.environ, **environment}).stdout.splitlines()[1:]
+    number = {"Oclgrind" in line: line[1:].split()[0] for line in lines}
+    return number[True], number[False]
+
+
+@pytest.mark.parametrize("is_first", [True, False])
+def test_a_device_that_fails_leaves_its_tiles_to_the_other_with_a_warning(program, tmp_path,
+                                                                          with_oclgrind, is_first):
+    scene = program.write_scene(tmp_path)
+    bad, good = oclgrind_and_pocl(program, with_oclgrind)
+    numbers = f"{bad},{good}" if is_first else f"{good},{bad}"
+    options = ("--size", "160x160", "--mode", "thesis")
+
+    alone = render_on(program, scene, tmp_path / "alone", good, with_oclgrind, *options)
+    both = render_on(program, scene, tmp_path / "both_devices", numbers, with_oclgrind, *options)
+
+    assert alone.returncode == 0 and both.returncode == 0, both.stderr
+    assert f"warning: device {bad} (Oclgrind" in both.stderr and "kernel" in both.stderr
+    for name in ("plane.img", "plane_truth.img"):
+        assert (tmp_path / "alone" / name).read_bytes() == (
+            tmp_path / "both_devices" / name).read_bytes()
+
+
+def test_where_the_only_device_fails_the_render_fails_and_leaves_nothing(program, tmp_path,
+                                                                         with_oclgrind):
+    bad, _ = oclgrind_and_pocl(program, with_oclgrind)
+
+    done = render_on(program, program.write_scene(tmp_path), tmp_path / "out", bad, with_oclgrind)
+
+    assert done.returncode == 1 and "Oclgrind" in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("numbers", ["0,0", "0,", ",1", "0;1", "64", "-1", "", "0 1", "a"])
+def test_numbers_that_are_none_are_wrong_usage(program, tmp_path, numbers):
+    done = program.run("render", program.write_scene(tmp_path), "-o", tmp_path / "out", "--device",
+                       numbers)
+
+    assert done.returncode == 2 and "--device" in done.stderr
+
+
+def test_of_several_devices_one_that_is_not_there_is_an_error(program, tmp_path):
+    done = program.run("render", program.write_scene(tmp_path), "-o", tmp_path / "out", "--device",
+                       "0,33")
+
+    assert done.returncode == 1 and "33" in done.stderr
