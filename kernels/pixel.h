@@ -76,14 +76,29 @@ static inline air_way pixel_air(radiometry_record frame, const air_record *air,
     return way;
 }
 
-/* Sets what a pixel sees of its background, if anything is there. */
+/* Where a mirror sends the ray of a pixel. */
+static inline void pixel_bounce(const float *normal, const float *ray, float *out)
+{
+    const float along = 2.0f * pixel_dot(normal, ray);
+
+    for (int k = 0; k < 3; k++) out[k] = ray[k] - along * normal[k];
+}
+
+/* Sets what a pixel sees of its background, if anything is there. A mirror sees it along its ray: the
+ * points lie a little off it, which tells where they are close.
+ *   ray   unit, from the sensor to the target; the interaction is set */
 static inline void pixel_set_background(pixel_state *state, radiometry_record frame,
                                         material_record material, background_record background,
-                                        const float *target, float sunlit)
+                                        hit_record target, const float *ray, float sunlit)
 {
     float to_target[3];
 
-    pixel_direction(background.point, target, to_target);
+    if (state->interaction == INTERACTION_DIFFUSE) {
+        pixel_direction(background.point, target.point, to_target);
+    } else {
+        pixel_bounce(target.normal, ray, to_target);
+        for (int k = 0; k < 3; k++) to_target[k] = -to_target[k];
+    }
     state->background_temperature_k = background.mean_temperature_k;
     state->background_sunlit = sunlit;
     state->background_sun_cosine = pixel_dot(background.normal, frame.sun);
@@ -129,7 +144,7 @@ static inline void pixel_set_target(pixel_state *state, radiometry_record frame,
     pixel_set_lobes(state, frame, hit, material, ray);
     state->emissivity =
         lookup_emissivity(material, at_normal ? 0.0f : state->view_angle_deg, frame.thesis);
-    for (int k = 0; k < 3; k++) bounce[k] = ray[k] + 2.0f * cosine * hit.normal[k];
+    pixel_bounce(hit.normal, ray, bounce);
     state->sky = sky_find(frame, bounce[0], bounce[1], bounce[2]);
 }
 

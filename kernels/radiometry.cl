@@ -244,7 +244,7 @@ static pixel_state pixel_look(radiometry_record frame, const air_record *air, ca
     state.interaction = pixel_interaction(material, background);
     pixel_set_target(&state, frame, hit, material, ray);
     if (background.facet != RECORD_NONE)
-        pixel_set_background(&state, frame, materials[background.material], background, hit.point,
+        pixel_set_background(&state, frame, materials[background.material], background, hit, ray,
                              background_sunlit);
     return state;
 }

@@ -137,6 +137,7 @@ class Database:
 
         sun = block()
         self.wavenumber_cm1 = sun[:, 1]
+        self.sun = 1e4 * sun[:, 2] * sun[:, 3]  # E_S tau1
         self.path_zenith_deg, self.tau2, self.path = [], [], []
         for _ in range(paths):
             self.path_zenith_deg.append(float(next(rows)[0]))

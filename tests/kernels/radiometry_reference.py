@@ -144,11 +144,18 @@ class Reference:
             ahead, behind = ahead * tau, path - upto
         return whole * ahead, radiance + ahead * behind
 
+    def is_specular(self, pixel):
+        facet = self.case.facets[self.case.hit["facet"][pixel]]
+        return self.case.materials[facet["material"]]["specular_share"] >= 0.5
+
     def background(self, pixel):
         """e_B B(T_B) + E_S/pi tau1 tau_SB cos(theta_B) (1 - e_B), and e_B."""
         b = self.case.background[pixel]
         normal = b["normal"].astype(np.float64)
         to_target = unit(self.case.hit["point"][pixel].astype(np.float64) - b["point"])
+        if self.is_specular(pixel):  # along the mirrored ray: the points are float32
+            mirror = self.case.hit["normal"][pixel].astype(np.float64)
+            to_target = 2 * (mirror @ self.ray(pixel)) * mirror - self.ray(pixel)
         e = self.emissivity(self.case.materials[b["material"]], angle_deg(normal @ to_target))
         cosine = max(0.0, normal @ self.frame["sun"].astype(np.float64))
         lit = float(self.case.background_sunlit[pixel])
@@ -353,6 +360,8 @@ class Case:
         b["shape_factor"] = np.where(specular, alone, np.where(alone, 1, random.random(n)))
         b["mean_temperature_k"] = np.where(alone, 0, random.uniform(240, 340, n))
         b["point"] = self.hit["point"] + random.normal(size=(n, 3)) * 5
+        bounce = ray - 2 * (ray * normal).sum(1)[:, None] * normal
+        b["point"][specular] = (self.hit["point"] + 5 * bounce)[specular]
         behind = unit(random.normal(size=(n, 3)))
         towards = (behind * (self.hit["point"] - b["point"])).sum(1)
         b["normal"] = behind * np.sign(towards)[:, None]
