@@ -21,6 +21,10 @@ static void print_place(const scene *s)
     printf("scene       %s\n", s->name);
     printf("site        latitude %.6f deg, longitude %.6f deg (east-positive), %s\n",
            s->place.latitude_deg, s->place.longitude_deg, time);
+    if (s->time_count > 1) {
+        site_format_time(s->time_s[s->time_count - 1], s->place.utc_offset_min, time);
+        printf("times       %zu, the last %s\n", s->time_count, time);
+    }
     if (s->ground_material != RECORD_NONE)
         printf("ground      %s, z = %.3f m, endless\n", s->materials[s->ground_material].name,
                s->ground_z_m);

@@ -23,7 +23,9 @@ static const char help[] =
     "                         reflected_sky_BAND, reflected_background_BAND, path_BAND and\n"
     "                         transmission_BAND are written only where they are named\n"
     "  --size WxH             pixels: columns x rows\n"
-    "  --time ISO             time with offset, as 1987-06-24T10:00:00-05:00\n"
+    "  --time ISO[,ISO...]    time with offset, as 1987-06-24T10:00:00-05:00; several of one day "
+    "go\n"
+    "                         into DIR/19870624T100000-0500 and so on\n"
     "  --mode exact|thesis    exact integrals, or what the thesis did\n"
     "  --set TABLE.KEY=VALUE  change a value of the scene, as --set camera.twist_deg=10\n"
     "  --probe COLUMN,ROW     also the spectra of that pixel, counted from 0,0 at the top left:\n"
@@ -69,6 +71,16 @@ static bool take_probe(render_output_options *output, const char *text)
            sscanf(text, "%9u,%9u%c", &output->probe[0], &output->probe[1], &end) == 2;
 }
 
+/* One time, or several with commas between. */
+static bool add_time(command_settings *settings, const char *text)
+{
+    char list[COMMAND_SETTING_SIZE];
+
+    if (!strchr(text, ',')) return command_settings_add(settings, "site.time", text);
+    if (snprintf(list, sizeof list, "[%s]", text) >= (int)sizeof list) return false;
+    return command_settings_add(settings, "site.time", list);
+}
+
 /* Takes one option; false where its value is none. */
 static bool take_option(arguments *a, int option, const char *value)
 {
@@ -85,7 +97,7 @@ static bool take_option(arguments *a, int option, const char *value)
     case 's':
         return add_size(&a->settings, value);
     case 't':
-        return command_settings_add(&a->settings, "site.time", value);
+        return add_time(&a->settings, value);
     case 'm':
         return command_settings_add(&a->settings, "render.mode", value);
     case 'S':

@@ -20,6 +20,7 @@ struct render {
     render_stage stages[STAGE_LIMIT];
     size_t stage_count;
     double stage_start_s;
+    sun_memory *suns; /* NULL: the scene has one time */
 };
 
 static void end_stage(render *r, const char *name)
@@ -95,10 +96,9 @@ static status set_temperatures(render *r)
 {
     status rc = STATUS_OK;
 
-    TRY(render_tables_take_facets(&r->shared.tables, r->shared.dev, r->shared.s));
     TRY(temperature_open(&r->shared.warmth, r->shared.dev, r->shared.s, r->shared.rays,
                          r->shared.bodies, r->shared.tables.facets, r->shared.tables.facet,
-                         r->shared.tables.facet_count));
+                         r->shared.tables.facet_count, r->suns));
     end_stage(r, "temperatures");
 out:
     return rc;
@@ -170,7 +170,9 @@ status render_open(render **out, const scene *s, device *dev)
     r->shared.dev = dev;
     r->shared.tables.facet_count = s->shape->facet_count + (s->ground_material != RECORD_NONE);
     r->stage_start_s = clock_now_s();
+    if (s->time_count > 1) TRY(sun_memory_open(&r->suns));
     TRY(open_rays(r));
+    TRY(render_tables_take_facets(&r->shared.tables, dev, s));
     TRY(set_temperatures(r));
     TRY(render_tables_take_spectra(&r->shared.tables, dev, s, r->shared.bodies));
     end_stage(r, "spectra");
@@ -186,6 +188,25 @@ out:
     return rc;
 }
 
+status render_move(render *r, const scene *s)
+{
+    status rc = STATUS_OK;
+    const render_look look = render_stated_look(s);
+
+    r->stage_count = 0;
+    r->stage_start_s = clock_now_s();
+    r->shared.s = s;
+    temperature_free(r->shared.warmth);
+    r->shared.warmth = NULL;
+    TRY(set_temperatures(r));
+    render_change_look(r, &look);
+    incident_free(r->shared.around);
+    r->shared.around = NULL;
+    if (!s->thesis) TRY(open_incident(r));
+out:
+    return rc;
+}
+
 void render_free(render *r)
 {
     if (!r) return;
@@ -197,6 +218,7 @@ void render_free(render *r)
     shape_factor_free(r->shared.grid);
     bodies_free(r->shared.bodies);
     ray_scene_free(r->shared.rays);
+    sun_memory_free(r->suns);
     free(r);
 }
 

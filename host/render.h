@@ -20,11 +20,16 @@ typedef struct render render;
 status render_open(render **out, const scene *s, device *dev);
 void render_free(render *r);
 
+/* Goes on with the same scene at another time of its local day: s differs from the scene that the
+ * render was opened with by its time alone, and outlives it. Rays towards suns that the earlier
+ * times had too are not cast again. */
+status render_move(render *r, const scene *s);
+
 /* The planes of the scene, radiances first; they belong to the render. */
 const render_plane *render_planes(const render *r, size_t *out_count);
 
-/* The most pixels that a tile should hold: what they need on the device stays below 128 MiB, whatever
- * the number of their samples. */
+/* The most pixels that a tile should hold: what they need on the device stays below 128 MiB,
+ * whatever the number of their samples. */
 uint32_t render_tile_limit(const render *r);
 
 /* Computes pixels first_pixel .. first_pixel + pixel_count - 1, counted along the rows. The values
@@ -47,15 +52,15 @@ render_look render_stated_look(const scene *s);
 /* Looks in another way from the next tile on. Temperatures stay those of the scene's time. */
 void render_change_look(render *r, const render_look *look);
 
-/* The last 24 hours, up to the scene's time, of what the middle of a pixel of the present look shows.
- * Where it meets nothing the day has no steps. */
+/* The last 24 hours, up to the scene's time, of what the middle of a pixel of the present look
+ * shows. Where it meets nothing the day has no steps. */
 status render_pixel_day(render *r, uint32_t pixel, temperature_day *out);
 
 /* The samples of all bands, see spectra.h; they belong to the render. */
 const spectra *render_spectra(const render *r);
 
-/* The spectra that a pixel's planes are integrals of, by the kernel that makes them; of several samples
- * the mean.
+/* The spectra that a pixel's planes are integrals of, by the kernel that makes them; of several
+ * samples the mean.
  *   out   shape (SENSOR_TERMS, sample_count), W m-2 sr-1 um-1, tau2 1; the caller allocates */
 status render_pixel_terms(render *r, uint32_t pixel, double *out);
 

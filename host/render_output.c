@@ -101,15 +101,22 @@ out:
     return rc;
 }
 
+/* The pool is opened for the first time of a scene, and moved to the others.
+ *   folder   that the files go to */
 static status open_writing(writing *w, const scene *s, device *const *dev, size_t dev_count,
-                           const render_output_options *options)
+                           const render_output_options *options, const char *folder,
+                           render_pool **pool)
 {
     status rc = STATUS_OK;
 
     *w = (writing){.s = s, .options = options};
     site_format_time(s->place.time_s, 0, w->time);
     TRY(check_probe(s, options));
-    TRY(render_pool_open(&w->pool, s, dev, dev_count));
+    if (*pool)
+        TRY(render_pool_move(*pool, s));
+    else
+        TRY(render_pool_open(pool, s, dev, dev_count));
+    w->pool = *pool;
     w->planes = render_planes(render_pool_render(w->pool), &w->plane_count);
     TRY(check_names(w));
     w->values = calloc(w->plane_count, sizeof *w->values);
@@ -118,7 +125,7 @@ static status open_writing(writing *w, const scene *s, device *const *dev, size_
     for (uint32_t i = 0; i < s->material_count; i++)
         w->materials[i] =
             (image_label){(int32_t)s->materials[i].record.number, s->materials[i].name};
-    TRY(output_folder_open(&w->folder, options->folder));
+    TRY(output_folder_open(&w->folder, folder));
     TRY(open_image(w, &w->cube, true));
     TRY(open_image(w, &w->truth, false));
 out:
@@ -133,7 +140,6 @@ static void free_writing(writing *w)
     output_folder_free(w->folder);
     free(w->materials);
     free(w->values);
-    render_pool_free(w->pool);
 }
 
 static void show_progress(void *listener, uint32_t done)
@@ -273,17 +279,55 @@ out:
     return rc;
 }
 
-status render_output(const scene *s, device *const *dev, size_t dev_count,
-                     const render_output_options *options)
+static status render_time(const scene *s, device *const *dev, size_t dev_count,
+                          const render_output_options *options, const char *folder,
+                          render_pool **pool)
 {
     status rc = STATUS_OK;
     const double start_s = clock_now_s();
     writing w = {0};
 
-    TRY(open_writing(&w, s, dev, dev_count, options));
+    TRY(open_writing(&w, s, dev, dev_count, options, folder, pool));
     TRY(render_pixels(&w));
     TRY(write_files(&w, start_s));
 out:
     free_writing(&w);
+    return rc;
+}
+
+/* The folder of one time, as 19870624T100000-0500; without what a file name should not hold. */
+static void time_folder(char *out, size_t size, const char *folder, const site *place)
+{
+    char time[SITE_TIME_SIZE];
+    size_t length;
+
+    site_format_time(place->time_s, place->utc_offset_min, time);
+    length = (size_t)snprintf(out, size, "%s/", folder);
+    for (size_t i = 0; time[i] && length + 1 < size; i++)
+        if (time[i] != ':' && (time[i] != '-' || i > 10)) out[length++] = time[i];
+    out[length < size ? length : size - 1] = '\0';
+}
+
+status render_output(const scene *s, device *const *dev, size_t dev_count,
+                     const render_output_options *options)
+{
+    status rc = STATUS_OK;
+    const size_t size = strlen(options->folder) + SITE_TIME_SIZE + 2;
+    char *folder = malloc(size);
+    scene *at = malloc(s->time_count * sizeof *at);
+    render_pool *pool = NULL;
+
+    NEED(folder && at, STATUS_MEMORY, "no memory for %zu times", s->time_count);
+    for (size_t i = 0; i < s->time_count; i++) {
+        at[i] = *s;
+        at[i].place.time_s = s->time_s[i];
+        time_folder(folder, size, options->folder, &at[i].place);
+        TRY(render_time(&at[i], dev, dev_count, options,
+                        s->time_count > 1 ? folder : options->folder, &pool));
+    }
+out:
+    render_pool_free(pool);
+    free(at);
+    free(folder);
     return rc;
 }

@@ -72,6 +72,17 @@ void render_pool_free(render_pool *pool)
     free(pool);
 }
 
+status render_pool_move(render_pool *pool, const scene *s)
+{
+    status rc = STATUS_OK;
+
+    pool->s = s;
+    for (size_t i = 0; i < pool->count; i++)
+        if (pool->members[i].r) TRY(render_move(pool->members[i].r, s));
+out:
+    return rc;
+}
+
 static status open_member(void *self, uint32_t *out_most)
 {
     status rc = STATUS_OK;
@@ -109,6 +120,7 @@ status render_pool_run(render_pool *pool, float *const *values,
 
     pool->pixel_count = job.pixel_count;
     pool->values = values;
+    for (size_t i = 0; i < pool->count; i++) pool->failed[i] = false;
     for (size_t i = 0; i < pool->count; i++)
         pool->workers[i] = (tile_worker){.self = &pool->members[i],
                                          .name = pool->members[i].name,

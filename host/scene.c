@@ -287,6 +287,7 @@ void scene_free(scene *s)
         free(s->inputs[i].path);
     }
     free(s->inputs);
+    free(s->time_s);
     free(s->path);
     free(s->folder);
     free(s->name);

@@ -19,6 +19,9 @@
 
 #include <stdbool.h>
 
+/* Times of one scene, at most: a day by quarters of an hour. */
+enum { SCENE_TIMES = 96 };
+
 typedef enum scene_thermal {
     SCENE_THERMAL_FIXED, /* every facet keeps its stated temperature */
     SCENE_THERMAL_THERM,
@@ -53,8 +56,10 @@ typedef struct scene_input {
 
 typedef struct scene {
     char *path, *folder, *name;
-    site place;
-    weather *history; /* NULL with thermal fixed and no [weather] */
+    site place;        /* its time is the first of the times */
+    size_t time_count; /* 1 or more */
+    double *time_s;    /* shape (time_count): UTC since 1970, all of one local day */
+    weather *history;  /* NULL with thermal fixed and no [weather] */
     forcing_laws laws;
     atmosphere *air;
     bool is_uniform; /* the sky goes all round, below the horizon too */

@@ -9,17 +9,51 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void read_time(scene_table *t, site *place)
+static bool read_one_time(scene_table *t, const toml_node *node, site *out)
 {
     char message[512];
     const char *iso;
+
+    if (toml_node_time(&iso, node, message, sizeof message) != 0)
+        return scene_took(t->reader, status_set(STATUS_FORMAT, "%s", message));
+    return scene_took(t->reader, site_parse_time(iso, &out->time_s, &out->utc_offset_min));
+}
+
+/* Several times: of one local day, in its order, so that one history of weather holds for all. */
+static void read_times(scene_table *t, const toml_node *list, site *place)
+{
+    scene *s = t->reader->s;
+    const size_t count = toml_node_count(list);
+
+    if (count == 0 || count > SCENE_TIMES) {
+        scene_fail(t->reader, list, "site.time: %zu times, expected 1 to %d", count, SCENE_TIMES);
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const toml_node *node = toml_node_at(list, i);
+        site at = *place;
+        if (!read_one_time(t, node, &at)) return;
+        if (i == 0) *place = at;
+        if (at.utc_offset_min != place->utc_offset_min ||
+            site_midnight_s(&at) != site_midnight_s(place))
+            scene_fail(t->reader, node,
+                       "site.time: expected times of one local day with one offset");
+        if (i > 0 && at.time_s <= s->time_s[i - 1])
+            scene_fail(t->reader, node, "site.time: expected a time after the one before");
+        s->time_s[i] = at.time_s;
+    }
+    s->time_count = count;
+}
+
+static void read_time(scene_table *t, site *place)
+{
     const toml_node *node = scene_table_node(t, "time");
 
     if (!node) return;
-    if (toml_node_time(&iso, node, message, sizeof message) != 0)
-        scene_took(t->reader, status_set(STATUS_FORMAT, "%s", message));
+    if (toml_node_kind(node) == TOML_ARRAY)
+        read_times(t, node, place);
     else
-        scene_took(t->reader, site_parse_time(iso, &place->time_s, &place->utc_offset_min));
+        read_one_time(t, node, place);
 }
 
 static void read_node(scene_table *t, site *place)
@@ -45,7 +79,13 @@ void scene_read_site(scene_reader *reader, const char **out_ground_material)
     }
     scene_table_number(&t, "latitude_deg", -90.0, 90.0, &place->latitude_deg);
     scene_table_number(&t, "longitude_deg", -180.0, 180.0, &place->longitude_deg);
-    read_time(&t, place);
+    reader->s->time_s = calloc(SCENE_TIMES, sizeof *reader->s->time_s);
+    reader->s->time_count = 1;
+    if (!reader->s->time_s)
+        scene_took(reader, status_set(STATUS_MEMORY, "no memory for the scene's times"));
+    else
+        read_time(&t, place);
+    if (reader->s->time_s) reader->s->time_s[0] = place->time_s;
     scene_table_string(&t, "ground_material", out_ground_material);
     scene_table_close(&t);
 }

@@ -5,12 +5,15 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct sun_history {
     device *dev;
     sun_day day;
     const bodies *dimming;
-    device_memory sun; /* float, shape (32 words, 4) */
+    sun_memory *memory; /* NULL: none */
+    float (*suns)[4];   /* shape (32 words, 4) */
+    device_memory sun;  /* the same */
     long last;
     double last_s;
 };
@@ -44,28 +47,27 @@ static sun_day day_of(const site *place, double origin_s, double step_s)
 }
 
 status sun_history_open(sun_history **out, device *dev, const site *place, double origin_s,
-                        double step_s, const bodies *dimming)
+                        double step_s, const bodies *dimming, sun_memory *memory)
 {
     status rc = STATUS_OK;
-    float(*sun)[4] = NULL;
     sun_history *history = calloc(1, sizeof *history);
 
     NEED(history, STATUS_MEMORY, "no memory for the sun's day");
     history->dev = dev;
     history->dimming = dimming;
+    history->memory = memory;
     history->day = day_of(place, origin_s, step_s);
     history->day.stride = history->day.word_count * (dimming ? 1 + SUN_HISTORY_SHARES : 1);
     const size_t slots = 32 * (size_t)history->day.word_count;
-    sun = calloc(slots, sizeof *sun);
-    NEED(sun, STATUS_MEMORY, "no memory for the sun's day");
+    history->suns = calloc(slots, sizeof *history->suns);
+    NEED(history->suns, STATUS_MEMORY, "no memory for the sun's day");
     history->last = (long)ceil((place->time_s - origin_s) / step_s - 1e-6);
     history->last_s = origin_s + (double)history->last * step_s;
-    set_suns(sun, &history->day, place, origin_s, step_s, history->last);
-    TRY(device_allocate(dev, &history->sun, slots * sizeof *sun, sun));
+    set_suns(history->suns, &history->day, place, origin_s, step_s, history->last);
+    TRY(device_allocate(dev, &history->sun, slots * sizeof *history->suns, history->suns));
     *out = history;
     history = NULL;
 out:
-    free(sun);
     sun_history_free(history);
     return rc;
 }
@@ -74,6 +76,7 @@ void sun_history_free(sun_history *history)
 {
     if (!history) return;
     device_release(history->sun);
+    free(history->suns);
     free(history);
 }
 
@@ -93,24 +96,9 @@ uint32_t sun_history_words(const sun_history *history)
     return history->day.stride;
 }
 
-static status trace_shares(const sun_history *history, const ray_scene *scene, uint32_t count,
-                           device_memory hit, device_memory lit)
-{
-    const world_record world = ray_scene_world(scene);
-    const crossing_world around = bodies_world(history->dimming);
-    const device_memory nodes = bodies_nodes(history->dimming);
-    const device_memory blocks = bodies_blocks(history->dimming);
-    const device_memory medium = bodies_medium(history->dimming);
-    const device_memory levels = bodies_levels(history->dimming);
-
-    return device_run(history->dev, "sun_share",
-                      shape2(count, SUN_HISTORY_SHARES * history->day.word_count), ARG(count),
-                      ARG(history->day), ARG(world), ARG(around), ARG(nodes), ARG(blocks),
-                      ARG(medium), ARG(levels), ARG(history->sun), ARG(hit), ARG(lit));
-}
-
-status sun_history_trace(const sun_history *history, const ray_scene *scene, device_memory facets,
-                         uint32_t count, device_memory hit, device_memory out_lit)
+/* Casts the rays towards the suns of a table; slots without a sun get no bit. */
+static status trace(const sun_history *history, const ray_scene *scene, device_memory facets,
+                    uint32_t count, device_memory sun, device_memory hit, device_memory out_lit)
 {
     status rc = STATUS_OK;
     const world_record world = ray_scene_world(scene);
@@ -118,11 +106,109 @@ status sun_history_trace(const sun_history *history, const ray_scene *scene, dev
 
     TRY(device_run(history->dev, "sun_history",
                    device_ray_shape(history->dev, count, history->day.word_count), ARG(count),
-                   ARG(history->day), ARG(world), ARG(nodes), ARG(blocks), ARG(facets),
-                   ARG(history->sun), ARG(hit), ARG(out_lit)));
-    if (history->dimming) TRY(trace_shares(history, scene, count, hit, out_lit));
+                   ARG(history->day), ARG(world), ARG(nodes), ARG(blocks), ARG(facets), ARG(sun),
+                   ARG(hit), ARG(out_lit)));
+    if (!history->dimming) goto out;
+    const crossing_world around = bodies_world(history->dimming);
+    const device_memory inner = bodies_nodes(history->dimming);
+    const device_memory leaves = bodies_blocks(history->dimming);
+    const device_memory medium = bodies_medium(history->dimming);
+    const device_memory levels = bodies_levels(history->dimming);
+    TRY(device_run(history->dev, "sun_share",
+                   shape2(count, SUN_HISTORY_SHARES * history->day.word_count), ARG(count),
+                   ARG(history->day), ARG(world), ARG(around), ARG(inner), ARG(leaves), ARG(medium),
+                   ARG(levels), ARG(sun), ARG(hit), ARG(out_lit)));
 out:
     return rc;
+}
+
+/* The step that a slot holds in a day that ends with step `last`. */
+static long step_of(const sun_history *history, uint32_t slot, long last)
+{
+    const long slots = (long)history->day.slot_count;
+
+    return last - ((last - (long)slot) % slots + slots) % slots;
+}
+
+/* Suns of the steps that a day which ended with step `from` did not have. Sets the bits and bytes of
+ * their slots too.
+ *   out_mask   shape (stride) */
+static status take_new_suns(const sun_history *history, long from, device_memory *out_sun,
+                            uint32_t *out_mask)
+{
+    status rc = STATUS_OK;
+    const sun_day *day = &history->day;
+    const size_t slots = 32 * (size_t)day->word_count;
+    float(*sun)[4] = calloc(slots, sizeof *sun);
+
+    NEED(sun, STATUS_MEMORY, "no memory for the sun's day");
+    memset(out_mask, 0, day->stride * sizeof *out_mask);
+    for (uint32_t slot = 0; slot < day->slot_count; slot++) {
+        if (step_of(history, slot, from) == step_of(history, slot, history->last)) continue;
+        memcpy(sun[slot], history->suns[slot], sizeof *sun);
+        out_mask[slot / 32] |= 1u << (slot % 32);
+        if (history->dimming) out_mask[day->word_count + slot / 4] |= 255u << (slot % 4 * 8);
+    }
+    TRY(device_allocate(history->dev, out_sun, slots * sizeof *sun, sun));
+out:
+    free(sun);
+    return rc;
+}
+
+/* Traces what an entry does not know yet, and brings it and out_lit up to date. */
+static status trace_new(const sun_history *history, const ray_scene *scene, device_memory facets,
+                        uint32_t count, device_memory hit, sun_memory_entry *entry,
+                        device_memory out_lit)
+{
+    status rc = STATUS_OK;
+    const uint32_t stride = history->day.stride;
+    const size_t bytes = (size_t)count * stride * sizeof(uint32_t);
+    uint32_t *mask = malloc(stride * sizeof *mask), *lit = malloc(bytes);
+    device_memory sun = NULL;
+
+    NEED(mask && lit, STATUS_MEMORY, "no memory for the sun's day of %u points", count);
+    TRY(take_new_suns(history, entry->last, &sun, mask));
+    TRY(trace(history, scene, facets, count, sun, hit, out_lit));
+    TRY(device_download(history->dev, out_lit, 0, bytes, lit));
+    for (size_t i = 0; i < (size_t)count * stride; i++)
+        entry->lit[i] = (entry->lit[i] & ~mask[i % stride]) | lit[i];
+    TRY(device_upload(history->dev, out_lit, 0, bytes, entry->lit));
+out:
+    device_release(sun);
+    free(lit);
+    free(mask);
+    return rc;
+}
+
+static status trace_remembered(const sun_history *history, const ray_scene *scene,
+                               device_memory facets, uint32_t count, device_memory hit,
+                               device_memory out_lit)
+{
+    status rc = STATUS_OK;
+    const size_t bytes = (size_t)count * history->day.stride * sizeof(uint32_t);
+    hit_record *met = malloc(count * sizeof *met);
+    sun_memory_entry *entry;
+
+    NEED(met, STATUS_MEMORY, "no memory for %u points", count);
+    TRY(device_download(history->dev, hit, 0, count * sizeof *met, met));
+    TRY(sun_memory_find(history->memory, met, count, history->day.stride, &entry));
+    if (entry->last == SUN_MEMORY_NOTHING) {
+        TRY(trace(history, scene, facets, count, history->sun, hit, out_lit));
+        TRY(device_download(history->dev, out_lit, 0, bytes, entry->lit));
+    } else {
+        TRY(trace_new(history, scene, facets, count, hit, entry, out_lit));
+    }
+    entry->last = history->last;
+out:
+    free(met);
+    return rc;
+}
+
+status sun_history_trace(const sun_history *history, const ray_scene *scene, device_memory facets,
+                         uint32_t count, device_memory hit, device_memory out_lit)
+{
+    if (history->memory) return trace_remembered(history, scene, facets, count, hit, out_lit);
+    return trace(history, scene, facets, count, history->sun, hit, out_lit);
 }
 
 status sun_history_times(const sun_history *history, uint32_t count, uint32_t first_plane,

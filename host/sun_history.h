@@ -6,15 +6,19 @@
 #include "bodies.h"
 #include "ray_scene.h"
 #include "site.h"
+#include "sun_memory.h"
 
 typedef struct sun_history sun_history;
 
 /* Computes where the sun stood. The last step is the first at or after the site's time.
  *   origin_s   UTC time in seconds of step 0, before the site's time
  *   step_s     divides an hour
- *   dimming    bodies that let a share of the sun through, which is told behind the bits; NULL: none */
+ *   dimming    bodies that let a share of the sun through, which is told behind the bits; NULL:
+ *              none
+ *   memory     of histories with the same origin and step, whose rays need not be cast again; what
+ *              this one casts is added; NULL: none */
 status sun_history_open(sun_history **out, device *dev, const site *place, double origin_s,
-                        double step_s, const bodies *dimming);
+                        double step_s, const bodies *dimming, sun_memory *memory);
 void sun_history_free(sun_history *history);
 
 /* Steps of 24 hours. Step k of the weather has bit k % slots. */

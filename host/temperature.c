@@ -21,17 +21,19 @@ struct temperature {
 };
 
 /* Without weather the sun's history has the steps of 15 minutes that the thesis allows. */
-static status open_sun_history(temperature *t, const scene *s, const bodies *dimming)
+static status open_sun_history(temperature *t, const scene *s, const bodies *dimming,
+                               sun_memory *memory)
 {
     const weather *w = s->history;
     const double day_before_s = 86400.0, quarter_hour_s = 900.0;
 
     if (!w)
         return sun_history_open(&t->sun, t->dev, &s->place,
-                                site_midnight_s(&s->place) - day_before_s, quarter_hour_s, dimming);
+                                site_midnight_s(&s->place) - day_before_s, quarter_hour_s, dimming,
+                                memory);
     return sun_history_open(&t->sun, t->dev, &s->place,
                             weather_origin_s(w, &s->place) + 3600.0 * w->record[0].time_h,
-                            w->interval_s, dimming);
+                            w->interval_s, dimming, memory);
 }
 
 static status open_model(temperature *t, const scene *s)
@@ -205,7 +207,7 @@ out:
 
 status temperature_open(temperature **out, device *dev, const scene *s, const ray_scene *rays,
                         const bodies *dimming, device_memory facets, const facet_record *facet,
-                        size_t facet_count)
+                        size_t facet_count, sun_memory *memory)
 {
     status rc = STATUS_OK;
     temperature *t = calloc(1, sizeof *t);
@@ -215,7 +217,7 @@ status temperature_open(temperature **out, device *dev, const scene *s, const ra
     t->facet = malloc((facet_count + 1) * sizeof *facet);
     NEED(t->facet, STATUS_MEMORY, "no memory for %zu facets", facet_count);
     memcpy(t->facet, facet, facet_count * sizeof *facet);
-    TRY(open_sun_history(t, s, dimming));
+    TRY(open_sun_history(t, s, dimming, memory));
     TRY(warm_facets(t, s, rays));
     *out = t;
     t = NULL;

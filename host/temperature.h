@@ -6,16 +6,18 @@
 #include "bodies.h"
 #include "ray_scene.h"
 #include "scene.h"
+#include "sun_memory.h"
 
 typedef struct temperature temperature;
 
 /* Computes the facets' temperatures: stated ones, or from the weather: in thesis mode with the sun
  * on them whenever it shines, in exact mode the mean over points of their area, each with its own sun
  * and shadow. Scene, rays, device and memory must outlive it.
+ *   memory          of the same scene at other times of its day; NULL: none
  *   facet, facets   facet_record, shape (facet_count), the ground's last, here and on the device */
 status temperature_open(temperature **out, device *dev, const scene *s, const ray_scene *rays,
                         const bodies *dimming, device_memory facets, const facet_record *facet,
-                        size_t facet_count);
+                        size_t facet_count, sun_memory *memory);
 void temperature_free(temperature *t);
 
 /* float, shape (facet_count). */
