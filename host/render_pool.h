@@ -23,8 +23,8 @@ status render_pool_run(render_pool *pool, float *const *values,
                        void (*on_progress)(void *listener, uint32_t done), void *listener,
                        const volatile sig_atomic_t *stop);
 
-/* Those devices that have not failed, at least one, NULL past their end; and the render of the first
- * of them, with the same planes as all others. Both belong to the pool. */
+/* Those devices that have not failed, at least one, NULL past their end; and the render of the
+ * first of them, with the same planes as all others. Both belong to the pool. */
 device *render_pool_device(const render_pool *pool, size_t index);
 render *render_pool_render(const render_pool *pool);
 
