@@ -1,5 +1,6 @@
 #include "scene_table.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
@@ -42,7 +43,8 @@ scene_table scene_table_open(scene_reader *reader, const toml_node *node, const 
 
 const toml_node *scene_table_node(scene_table *t, const char *key)
 {
-    if (t->asked_count < SCENE_TABLE_KEYS) t->asked[t->asked_count++] = key;
+    assert(t->asked_count < SCENE_TABLE_KEYS);
+    t->asked[t->asked_count++] = key;
     return t->node ? toml_node_get(t->node, key) : NULL;
 }
 

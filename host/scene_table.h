@@ -13,7 +13,7 @@ typedef struct scene_reader {
     int failure_count;
 } scene_reader;
 
-enum { SCENE_TABLE_KEYS = 24 };
+enum { SCENE_TABLE_KEYS = 64 };
 
 typedef struct scene_table {
     scene_reader *reader;

@@ -288,3 +288,19 @@ def test_every_error_of_an_all_but_empty_scene_names_the_file(program, folder):
 
     assert done.returncode == 1
     assert all("scene.toml" in line for line in done.stderr.splitlines())
+
+
+def test_all_keys_of_a_large_table_are_known(program, tmp_path):
+    generate = {
+        "model": "us-standard-1976", "wavenumber_cm1": [700.0, 1300.0], "wavenumber_step_cm1": 20.0,
+        "sample_step_cm1": 5.0, "aerosol": "rural", "visibility_km": 23.0,
+        "phase_function": "henyey-greenstein", "asymmetry": .7, "ground_altitude_m": 0.0,
+        "ground_albedo": [.1, .2], "ground_albedo_edge_um": [9.0], "sensor_altitude_m": 9000.0,
+        "sensor_azimuth_deg": 10.0, "path_zenith_deg": [0.0, 60.0, 10.0],
+        "target_altitude_m": [500.0, 1000.0], "range_m": [100.0, 1000.0],
+        "sky_step_deg": {"zenith": 15, "azimuth": 30}}
+    atmosphere = {"uniform": program.vacuum, "generate": generate}
+
+    done = program.run("check", program.write_scene(tmp_path, atmosphere=atmosphere))
+
+    assert done.returncode == 0, done.stderr

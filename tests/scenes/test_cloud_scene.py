@@ -40,13 +40,17 @@ def test_clouds_are_closed_ellipsoids_that_face_outwards(meshes, name, half_m):
     assert volume == pytest.approx(4 / 3 * np.pi * np.prod(half_m), rel=.02)
 
 
+def render(out, name):
+    subprocess.run([ROOT / "build/radsig", "render", CLOUD / f"{name}.toml", "-o", out, "--size",
+                    "160x120"], check=True)
+    stem = {"scene": "cloud"}.get(name, name)
+    assert json.loads((out / f"{stem}.json").read_text())
+    return {**envi.read(out / stem)[1], **envi.read(out / f"{stem}_truth")[1]}
+
+
 @pytest.fixture(scope="module")
 def planes(tmp_path_factory):
-    out = tmp_path_factory.mktemp("render")
-    subprocess.run([ROOT / "build/radsig", "render", CLOUD / "scene.toml", "-o", out, "--size",
-                    "160x120"], check=True)
-    assert json.loads((out / "cloud.json").read_text())
-    return {**envi.read(out / "cloud")[1], **envi.read(out / "cloud_truth")[1]}
+    return render(tmp_path_factory.mktemp("render"), "scene")
 
 
 def test_the_shadows_of_the_clouds_are_as_dark_as_the_clouds_are_thick(planes):
@@ -92,3 +96,34 @@ def test_in_the_visible_the_dense_cloud_is_white_and_its_shadow_lies_away_from_t
     of_grass = radiance - np.median(radiance[planes["material"] == 30])
     shaded, lit = (np.median(of_grass[grass & at]) for at in (planes["sunlit"] < .01, planes["sunlit"] == 1))
     assert shaded < .6 * lit
+
+
+@pytest.fixture(scope="module")
+def level(tmp_path_factory):
+    return render(tmp_path_factory.mktemp("level"), "level")
+
+
+def test_from_the_ground_the_horizon_lies_where_the_camera_s_tilt_puts_it(level):
+    sky = level["interaction"] == 0
+
+    # The camera looks up by the angle whose tangent is 248 / hypot(300, 1800); 24 mm, 36 mm wide.
+    horizon = 60 + 248 / np.hypot(300, 1800) * 24 / 36 * 160
+    assert sky[:int(horizon)].all() and not sky[int(horizon) + 1:].any()
+
+
+def test_from_the_ground_the_sky_grows_warmer_and_brighter_towards_the_horizon(level):
+    column = slice(80, 88)  # between the clouds
+
+    warmth = level["apparent_temperature_lwir_c"][:74, column].mean(1)
+    light = level["radiance_vis"][:74, column].mean(1)
+    assert (np.diff(warmth) > 0).all() and warmth[-1] > warmth[0] + 25
+    assert light[-1] > 1.2 * light[0]
+
+
+def test_from_the_ground_clouds_are_warmer_than_the_sky_behind_them(level):
+    warmth = level["apparent_temperature_lwir_c"]
+
+    # Both at about the air's temperature at their height, 16.5 C at 1000 m and 20 C at 400 m.
+    for row, column in (25, 102), (37, 57):
+        assert 10 < warmth[row, column] < 22
+        assert warmth[row, column] > warmth[row, 140] + 5
