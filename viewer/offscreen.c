@@ -9,6 +9,7 @@ typedef struct offscreen {
     OSMesaContext context;
     unsigned char *pixels; /* OSMesa draws here; canvas_read reads it */
     int width, height;
+    int most_width, most_height; /* shape of pixels; the page is its lower left part */
 } offscreen;
 
 static surface_function load(const char *name)
@@ -25,10 +26,9 @@ static void measure(surface *s, int *out_width, int *out_height, double *out_sca
     *out_scale = 1.0;
 }
 
-static status resize(surface *s, int width, int height)
+static status grow(offscreen *o, int width, int height)
 {
     status rc = STATUS_OK;
-    offscreen *o = (offscreen *)s;
     unsigned char *pixels = malloc((size_t)width * (size_t)height * 4);
 
     NEED(pixels, STATUS_MEMORY, "no memory for a picture of %d x %d pixels", width, height);
@@ -36,11 +36,26 @@ static status resize(surface *s, int width, int height)
          "OSMesa cannot draw %d x %d pixels", width, height);
     free(o->pixels);
     o->pixels = pixels;
-    o->width = width;
-    o->height = height;
+    o->most_width = width;
+    o->most_height = height;
     pixels = NULL;
 out:
     free(pixels);
+    return rc;
+}
+
+/* OSMesa keeps what it drew on until its context ends: only larger pages get a new one. */
+static status resize(surface *s, int width, int height)
+{
+    status rc = STATUS_OK;
+    offscreen *o = (offscreen *)s;
+
+    if (width > o->most_width || height > o->most_height)
+        TRY(grow(o, width > o->most_width ? width : o->most_width,
+                 height > o->most_height ? height : o->most_height));
+    o->width = width;
+    o->height = height;
+out:
     return rc;
 }
 
