@@ -96,7 +96,8 @@ static void write_decks(FILE *stream, const recipe *r)
     const char *const *decks = recipe_decks(r), *const *names = recipe_names(r);
     size_t whole = 0;
 
-    fputs("# Cards of all runs; below the first of its kind, a deck's lines that differ from it.\n",
+    fputs(DATABASE_HEADER_CARDS
+          "; below the first of its kind, a deck's lines that differ from it.\n",
           stream);
     for (size_t i = 0; i < recipe_count(r); i++) {
         const char *line = decks[i], *model = decks[whole];

@@ -5,6 +5,9 @@
 #include "generation.h"
 #include "recipe.h"
 
+/* With this the cards of all runs begin, which end the header. */
+#define DATABASE_HEADER_CARDS "# Cards of all runs"
+
 /* Lines that start with '#', each with its line end; the caller frees them. */
 status database_header(char **out, const generation *g, const recipe *r);
 

@@ -1,6 +1,7 @@
 #include "tool.h"
 
 #include "atmosphere_container.h"
+#include "output_file.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -33,6 +34,15 @@ int tool_read(int argc, char **argv, int known, tool_options *out)
     out->first = optind;
     out->count = argc - optind;
     return 0;
+}
+
+status tool_check_output(const char *path)
+{
+    output_file *file = NULL;
+    const status rc = output_file_open(&file, path);
+
+    output_file_free(file);
+    return rc;
 }
 
 bool tool_is_container(const char *path)

@@ -33,6 +33,9 @@ enum { TOOL_TIME = 1, TOOL_KEEP_DECKS = 2, TOOL_PLOT = 4 };
  *   known   a sum of the above */
 int tool_read(int argc, char **argv, int known, tool_options *out);
 
+/* Before a long run: fails with STATUS_FILE where the output could not be written. */
+status tool_check_output(const char *path);
+
 bool tool_is_container(const char *path); /* its name ends in .radc */
 
 /* Writes a container or text, by the name. */

@@ -22,6 +22,7 @@ static status run(const cloud_model *model, const char *output)
     const int stem = dot && !strchr(dot, '/') ? (int)(dot - output) : (int)strlen(output);
 
     snprintf(path, sizeof path, "%.*s.scattering.csv", stem, output);
+    TRY(tool_check_output(output));
     TRY(cloud_compute(&c, model));
     TRY(cloud_write_extinction(c, model, output));
     TRY(cloud_write_scattering(c, model, path));

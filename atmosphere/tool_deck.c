@@ -22,6 +22,7 @@ static status run(char **files, size_t count, const char *output)
     deck_runs runs = {0};
 
     for (size_t i = 0; i < count; i++) TRY(deck_file_read(&runs, files[i]));
+    TRY(tool_check_output(output));
     TRY(run_table_open(&table));
     TRY(lowtran_run_decks((const char *const *)runs.texts, (const char *const *)runs.names,
                           runs.count, run_table_add, table));

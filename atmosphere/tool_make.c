@@ -112,6 +112,7 @@ static status run(const char *scene_path, const tool_options *options)
          STATUS_ARGUMENT,
          "%s: a text file has no place for target_altitude_m and range_m, expected -o FILE.radc",
          options->output);
+    TRY(tool_check_output(options->output));
     TRY(sonde_profile_cards(&profile_cards, g));
     TRY(phase_table_cards(&phase_cards, g->plan.phase_table));
     TRY(recipe_open(&p.r, &g->plan, &g->s->place, profile_cards, phase_cards));

@@ -1,13 +1,15 @@
+#include "database_header.h"
 #include "database_plot.h"
 #include "tool.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const char help[] =
     "usage: radsig-atmosphere show FILE.rad [--plot STEM]\n"
     "\n"
-    "Prints what a radiance database, text or container, holds.\n"
+    "Prints what a radiance database, text or container, holds, but for the cards of its runs.\n"
     "\n"
     "  --plot STEM   draws STEM_sun.png, STEM_tau.png, STEM_path.png, STEM_sky.png by\n"
     "                wavelength, STEM_emitted.png and STEM_scattered.png, the sky by\n"
@@ -77,13 +79,22 @@ static void print_steps(const atmosphere *a)
                mean(a, a->range_scattered + i * n));
 }
 
+/* All but the cards, which fill pages. */
+static void print_header(const char *header)
+{
+    const char *cards = strstr(header, DATABASE_HEADER_CARDS);
+
+    fwrite(header, 1, cards ? (size_t)(cards - header) : strlen(header), stdout);
+    if (cards) puts("# The cards of all runs stand in the file.");
+}
+
 static status run(const char *path, const char *plot)
 {
     status rc = STATUS_OK;
     atmosphere *a = NULL;
 
     TRY(atmosphere_read(&a, path));
-    fputs(a->header, stdout);
+    print_header(a->header);
     print_grids(a);
     print_means(a);
     print_steps(a);

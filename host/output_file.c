@@ -4,6 +4,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 struct output_file {
@@ -16,9 +17,13 @@ status output_file_reserve(output_file **out, const char *path)
 {
     status rc = STATUS_OK;
     const size_t size = strlen(path) + 32;
+    struct stat there;
     output_file *file = calloc(1, sizeof *file);
 
     NEED(file, STATUS_MEMORY, "%s: no memory to write it", path);
+    const mode_t kind = stat(path, &there) == 0 ? there.st_mode & S_IFMT : S_IFREG;
+    NEED(kind == S_IFREG, STATUS_FILE, "%s: %s", path,
+         kind == S_IFDIR ? strerror(EISDIR) : "a device or pipe, expected the name of a file");
     file->path = strdup(path);
     file->temporary_path = malloc(size);
     NEED(file->path && file->temporary_path, STATUS_MEMORY, "%s: no memory to write it", path);

@@ -9,7 +9,8 @@
 
 typedef struct output_file output_file;
 
-/* Opens a temporary file for writing; `path` is untouched until the commit. */
+/* Opens a temporary file for writing; `path` is untouched until the commit. Fails with STATUS_FILE if
+ * its folder takes no file, or if it is a folder or a device. */
 status output_file_open(output_file **out, const char *path);
 
 /* For libraries that write by name: reserves the temporary name and opens nothing. */

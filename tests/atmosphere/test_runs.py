@@ -62,5 +62,15 @@ def test_by_night_one_run_serves_all_azimuths(atmosphere, tmp_path):
     atmosphere("make", VISIBLE.with_name("january_night.toml"), "-o", tmp_path / "x.radc", "--keep-decks", decks)
     sky = [path.read_text() for path in decks.glob("sky_*")]
 
-    assert len(sky) == 1 + 6 * 13  # the zenith, and 13 azimuths from 0 to 360 at each other angle
-    assert len(set(sky)) == 7
+    assert len(sky) == 1 + 18 * 5  # the zenith, and azimuths from 0 to 360 at each other angle
+    assert len(set(sky)) == 1 + 18
+
+
+@pytest.mark.parametrize("output", ["absent/x.ext", "folder", "/dev/null"])
+def test_an_output_that_cannot_be_written_is_told_of_before_any_run(atmosphere, tmp_path, output):
+    (tmp_path / "folder").mkdir()
+    before = os.times().children_user
+    done = atmosphere("cloud", "cumulus", "-o", tmp_path / output, code=1)
+
+    assert str(tmp_path / output) in done.stderr
+    assert os.times().children_user - before < 1.0  # its 2 x 50 runs take some seconds

@@ -62,6 +62,13 @@ def test_the_thermal_sky_is_brightest_at_the_rim(atmosphere, tmp_path):
         assert row == sorted(row) and row[-1] > row[0] + 1
 
 
+def test_the_summary_fits_on_a_page(atmosphere):
+    said = atmosphere("show", SHIPPED / "june24_noon.radc").stdout
+
+    assert "sha256 of lowtran7.f" in said and "sky at 90 degrees, north" in said
+    assert "path_05.000" not in said and len(said.splitlines()) < 50
+
+
 @pytest.mark.parametrize("arguments, code, expected", [
     (["{file}", "--plot", "{folder}/absent/air"], 1, "absent/air"),
     (["{file}", "--plot"], 2, "needs a value"),

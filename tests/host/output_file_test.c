@@ -49,6 +49,18 @@ static void the_old_file_stays_until_the_commit(void **state)
     scratch_assert_text("kept", "new");
 }
 
+static void a_device_or_a_folder_is_not_replaced(void **state)
+{
+    static const char *const paths[] = {"/dev/null", "/"};
+    output_file *file = NULL;
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(output_file_open(&file, paths[i]), STATUS_FILE);
+        assert_null(file);
+    }
+}
+
 static void a_file_that_is_not_committed_leaves_nothing(void **state)
 {
     (void)state;
@@ -148,6 +160,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_A_FOLDER(a_committed_file_stands_in_its_place_alone),
         IN_A_FOLDER(the_old_file_stays_until_the_commit),
+        IN_A_FOLDER(a_device_or_a_folder_is_not_replaced),
         IN_A_FOLDER(a_file_that_is_not_committed_leaves_nothing),
         IN_A_FOLDER(the_temporary_file_stands_beside_its_place),
         IN_A_FOLDER(a_reserved_file_is_written_by_name),
