@@ -1,13 +1,13 @@
 #include "bvh.h"
 
-#include "bvh_binary.h"
+#include "bvh_wide.h"
 #include "polygon.h"
 
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHILDREN = 8, ALIGNMENT = 64, BLOCK_LIMIT = 1 << 27 };
+enum { CHILDREN = BVH_CHILDREN, ALIGNMENT = 64, BLOCK_LIMIT = 1 << 27 };
 
 /* Products of four coordinates must stay far from overflow on the device. */
 static const float coordinate_limit = 1e9f;
@@ -32,6 +32,7 @@ typedef struct builder {
     triangle *triangle;
     bvh_item *item;
     bvh_fork *fork;
+    uint32_t *plan;
     float pad_m;
 } builder;
 
@@ -98,30 +99,6 @@ static void add_facets(builder *b, const bvh_source *source)
     b->pad_m = rounding * reach;
 }
 
-/* Opens the node until it has eight children, always the largest first. */
-static uint32_t gather_children(const bvh_fork *fork, uint32_t top, uint32_t child[CHILDREN])
-{
-    uint32_t count = 1;
-
-    child[0] = top;
-    while (count < CHILDREN) {
-        uint32_t largest = CHILDREN;
-        float largest_area = -1;
-        for (uint32_t i = 0; i < count; i++) {
-            const bvh_fork *f = &fork[child[i]];
-            const float area = bvh_half_area(f->low, f->high);
-            if (f->right && area > largest_area) {
-                largest = i;
-                largest_area = area;
-            }
-        }
-        if (largest == CHILDREN) break;
-        child[count++] = fork[child[largest]].right;
-        child[largest]++;
-    }
-    return count;
-}
-
 /* Sorts the children by their centres along the diagonal of an octant. */
 static uint32_t octant_order(const bvh_node *node, uint32_t count, uint32_t octant)
 {
@@ -175,7 +152,7 @@ static uint32_t add_node(builder *b, uint32_t top)
     bvh_node *node = &b->tree->node[index];
     uint32_t child[CHILDREN], count = 0, deepest = 0;
 
-    if (b->fork) count = gather_children(b->fork, top, child);
+    if (b->fork) count = bvh_wide_children(b->plan, b->fork, top, child);
     for (uint32_t i = 0; i < CHILDREN; i++) {
         set_box(node, i, i < count ? &b->fork[child[i]] : NULL, b->pad_m);
         node->child[i] = BVH_LEAF;
@@ -215,6 +192,7 @@ static status flatten(builder *b, bool even, uint32_t *out_stack)
     uint32_t fork_count = 1;
 
     if (count) TRY(bvh_binary_build(&b->fork, &fork_count, b->item, count, even));
+    if (count) TRY(bvh_wide_plan(&b->plan, b->fork, 2 * (size_t)count - 1));
     const size_t leaf_count = (fork_count + 1) / 2;
     NEED(leaf_count <= BLOCK_LIMIT, STATUS_ARGUMENT,
          "a tree over %u triangles would have %zu blocks, at most %d are possible", count,
@@ -228,9 +206,11 @@ out:
 
 static void drop_flat(builder *b)
 {
+    free(b->plan);
     free(b->fork);
     free(b->tree->node);
     free(b->tree->block);
+    b->plan = NULL;
     b->fork = NULL;
     b->tree->node = NULL;
     b->tree->block = NULL;
@@ -263,6 +243,7 @@ status bvh_build(bvh **out, const bvh_source *source)
     *out = b.tree;
     b.tree = NULL;
 out:
+    free(b.plan);
     free(b.fork);
     free(b.item);
     free(b.triangle);

@@ -5,6 +5,7 @@
 #include "status.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 enum { BVH_BLOCK_SIZE = 8 };

@@ -129,6 +129,21 @@ static inline uint ray_meets(const ray_frame *f, global const bvh_block *block, 
     return ray_mask(met & (determinant != 0.0f) & (range > 0.0f) & (range <= limit));
 }
 
+/* Asks for the memory of a child that will soon be visited. */
+static inline void ray_fetch(global const bvh_node *nodes, global const bvh_block *blocks,
+                             const uint word)
+{
+#if defined(__AVX__) && !defined(RAY_PORTABLE)
+    global const char *at = word & BVH_LEAF
+                                ? (global const char *)(blocks + ((word & ~BVH_LEAF) >> 4))
+                                : (global const char *)(nodes + word);
+    UNROLL
+    for (int line = 0; line < 4; line++) __builtin_prefetch((const void *)(size_t)(at + 64 * line));
+#else
+    (void)nodes, (void)blocks, (void)word;
+#endif
+}
+
 /* A stack entry: the range where a box is entered, which orders as its bits do, above its child word.
  * Puts the children of the mask on the stack, the nearest on top. */
 static inline uint ray_push_sorted(ulong *stack, const uint depth, global const uint *child,

@@ -212,9 +212,11 @@ static inline uint ray_packet_sort(const uint order, const uint mask)
 }
 
 /* Puts the children that a lane enters on the stack, the nearest on top; returns its depth. */
-INLINE uint ray_packet_open(const ray_lanes *f, global const bvh_node *node, const uint coherent,
+INLINE uint ray_packet_open(const ray_lanes *f, global const bvh_node *nodes,
+                            global const bvh_block *blocks, const uint word, const uint coherent,
                             const float16 limit, ray_packet_stack *stack, uint depth)
 {
+    global const bvh_node *node = nodes + word;
     const uint order = node->order[f->octant];
     const uint mask = coherent ? ray_lanes_reach(f, node, MAXFLOAT) : 0xff;
 
@@ -225,6 +227,7 @@ INLINE uint ray_packet_open(const ray_lanes *f, global const bvh_node *node, con
         float16 range;
         const int16 enters = ray_lanes_enter(f, node, child, coherent, limit, &range);
         if (ray_lanes_mask(enters) == 0) continue;
+        ray_fetch(nodes, blocks, node->child[child]);
         stack->word[depth] = node->child[child];
         stack->entered[depth++] = enters ? range : (float16)NAN;
     }
@@ -254,9 +257,9 @@ static inline void ray_packet_closest(global const bvh_node *nodes, global const
         else if (word & BVH_LEAF)
             ray_packet_closest_leaf(&w.lanes, blocks, word, w.lanes.axis % 3, active, &best);
         else if (w.lanes.coherent)
-            depth = ray_packet_open(&w.lanes, nodes + word, 1, limit, &stack, depth);
+            depth = ray_packet_open(&w.lanes, nodes, blocks, word, 1, limit, &stack, depth);
         else
-            depth = ray_packet_open(&w.lanes, nodes + word, 0, limit, &stack, depth);
+            depth = ray_packet_open(&w.lanes, nodes, blocks, word, 0, limit, &stack, depth);
         do {
             if (depth == 0) goto done;
             active = stack.entered[--depth] <= best.range * RAY_SLACK;
