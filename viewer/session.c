@@ -215,6 +215,7 @@ static status answer(session *s, const session_wish *wish, unsigned number)
     if (s->of->s->place.time_s != wished_time_s(s, wish)) {
         tell(s, "temperatures", 0.0);
         TRY(reopen(s, wish));
+        TRY(render_coarse(s, wish, number));
     }
     const render_look look = wished_look(s, wish);
     TRY(render_frame(s, &look, number));
