@@ -44,7 +44,7 @@ SCENES := $(patsubst scenes/%/make_geometry.py,scenes/%/.geometry,$(wildcard sce
 .DELETE_ON_ERROR:
 .SECONDARY:
 .SECONDEXPANSION:
-.PHONY: help deps all atmosphere atmosphere-data scenes demo test lint bench bench-rays renders clean bench-view screenshots
+.PHONY: help exact-rays deps all atmosphere atmosphere-data scenes demo test lint bench bench-rays renders clean bench-view screenshots
 
 ## help: list the targets
 help:
@@ -194,8 +194,9 @@ demo: deps all
 	@echo "written:"; ls out/airport | sed 's,^,  out/airport/,'
 
 ## test: build and run all tests; SAN=address,undefined builds them with sanitizers
-test: deps all $(HOST_TESTS) $(ATMOSPHERE_AT_HAND)
+test: deps all $(HOST_TESTS) $(BUILD)/exact-rays $(ATMOSPHERE_AT_HAND)
 	@set -e; for t in $(HOST_TESTS); do $(RUN_SANITIZED) $$t; done
+	$(RUN_SANITIZED) $(BUILD)/exact-rays 2000 airport hall terrain-54450
 	$(RUN_SANITIZED) RADSIG=$(PROGRAM) $(PYTHON) -m pytest -q -p no:cacheprovider tests
 
 # PoCL and LLVM keep memory until the process ends.
@@ -235,7 +236,17 @@ build/bench/rays.png: $(BUILD)/bench-rays
 $(BUILD)/bench-rays: $(BENCH_RAYS) $(BUILD)/library.a
 	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lembree3
 
-$(BENCH_RAYS): CPPFLAGS += -Ibench/rays
+EXACT_RAYS := $(patsubst %.c,$(BUILD)/%.o,$(wildcard bench/exact_rays/*.c)) $(BUILD)/bench/rays/bench_mesh.o
+
+## exact-rays: check rays against a search in double precision over all triangles; BENCH_MESHES
+exact-rays: deps scenes $(BUILD)/exact-rays
+	$(BUILD)/exact-rays 100000 $(BENCH_MESHES)
+
+$(BUILD)/exact-rays: $(EXACT_RAYS) $(BUILD)/library.a
+	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lpthread
+
+$(BENCH_RAYS) $(EXACT_RAYS): CPPFLAGS += -Ibench/rays
+$(BUILD)/bench/exact_rays/brute_force.o: CFLAGS += -O3
 
 ## bench-view: measure the preview from inside: first picture, pictures a second, exact after rest
 bench-view: deps all
@@ -258,4 +269,4 @@ clean:
 	rm -f scenes/*/*.gdb scenes/*/*.obj scenes/library/*.ems
 
 -include $(patsubst %.o,%.d,$(LIBRARY) $(COMMANDS:%.c=$(BUILD)/%.o) $(VIEWER:%.c=$(BUILD)/%.o)) $(wildcard $(BUILD)/tests/host/*.d) \
-	$(wildcard $(BUILD)/atmosphere/*.d $(BUILD)/bench/rays/*.d)
+	$(wildcard $(BUILD)/atmosphere/*.d $(BUILD)/bench/*/*.d)

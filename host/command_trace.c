@@ -1,5 +1,6 @@
 #include "command.h"
 #include "command_value.h"
+#include "facet_range.h"
 #include "ray_model.h"
 #include "ray_stream.h"
 
@@ -120,13 +121,25 @@ out:
     return rc;
 }
 
+/* Metres; INFINITY for a miss. */
+static float range_of(const ray_batch *batch, const trace_answer *a, const geometry *shape,
+                      uint32_t i)
+{
+    const double rounded_m = (double)a->range_host[i] * batch->length[i];
+
+    if (a->facet_host[i] == RECORD_NONE) return INFINITY;
+    return (float)facet_range(shape->corner[a->facet_host[i]], (const float(*)[3])shape->position,
+                              batch->exact[i], rounded_m);
+}
+
 static void print_answer(const trace_request *request, const ray_batch *batch,
-                         const trace_answer *a, const uint32_t *facet_id)
+                         const trace_answer *a, const geometry *shape)
 {
     for (uint32_t i = 0; i < batch->count; i++) {
         const uint32_t facet = a->facet_host[i];
-        const float range = (float)((double)a->range_host[i] * batch->length[i]);
-        const int32_t id = facet == RECORD_NONE ? -1 : (int32_t)facet_id[facet];
+        const float range = request->any_hit ? 0 : range_of(batch, a, shape, i);
+        const int32_t id =
+            request->any_hit || facet == RECORD_NONE ? -1 : (int32_t)shape->facet_id[facet];
         if (request->any_hit && request->binary) {
             putchar(a->met_host[i]);
         } else if (request->any_hit) {
@@ -157,7 +170,7 @@ static status run(const trace_request *request)
         TRY(ray_stream_read(&stream, batch));
         if (batch->count == 0) break;
         TRY(cast(ray_model_scene(model), batch, request->any_hit, answer));
-        print_answer(request, batch, answer, ray_model_geometry(model)->facet_id);
+        print_answer(request, batch, answer, ray_model_geometry(model));
     }
     NEED(fflush(stdout) == 0 && !ferror(stdout), STATUS_FILE, "stdout: %s", strerror(errno));
 out:

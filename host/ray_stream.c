@@ -9,7 +9,7 @@ static status add_ray(ray_stream *stream, ray_batch *batch, const double ray[6])
 {
     status rc = STATUS_OK;
     const char *unit = stream->binary ? "ray" : "line";
-    double largest = 0, square = 0;
+    double largest = 0, square = 0, scaled[3];
     int exponent = 0;
     float out[6];
 
@@ -23,10 +23,16 @@ static status add_ray(ray_stream *stream, ray_batch *batch, const double ray[6])
     frexp(largest, &exponent);
     for (int k = 0; k < 3; k++) {
         out[k] = (float)(ray[k] - stream->origin_m[k]);
-        out[3 + k] = (float)ldexp(ray[3 + k], -exponent);
+        scaled[k] = ldexp(ray[3 + k], -exponent);
+        out[3 + k] = (float)scaled[k];
         square += (double)out[3 + k] * (double)out[3 + k];
     }
-    for (int k = 0; k < 6; k++) batch->ray[k][batch->count] = out[k];
+    const double length = hypot(hypot(scaled[0], scaled[1]), scaled[2]);
+    for (int k = 0; k < 6; k++) {
+        batch->ray[k][batch->count] = out[k];
+        batch->exact[batch->count][k] =
+            k < 3 ? ray[k] - stream->origin_m[k] : scaled[k - 3] / length;
+    }
     batch->length[batch->count++] = sqrt(square);
 out:
     return rc;

@@ -12,9 +12,10 @@ enum { RAY_BATCH_SIZE = 1 << 16 };
 
 typedef struct ray_batch {
     uint32_t count;
-    float ray[6][RAY_BATCH_SIZE];  /* origins, directions; these are scaled by a power of two, so
+    float ray[6][RAY_BATCH_SIZE];    /* origins, directions; these are scaled by a power of two, so
                                       that they turn by nothing and overflow nowhere */
-    double length[RAY_BATCH_SIZE]; /* m per length of the scaled direction */
+    double length[RAY_BATCH_SIZE];   /* m per length of the scaled direction */
+    double exact[RAY_BATCH_SIZE][6]; /* origins, unit directions, before they are rounded */
 } ray_batch;
 
 typedef struct ray_stream {

@@ -85,7 +85,7 @@ def test_binary_answers_are_the_bits_of_the_text(tmp_path):
     mesh = write(tmp_path / "sphere.obj", cases.icosphere(2))
     random = np.random.default_rng(1)
     rays = random.normal(size=(200, 6)).astype("<f4")
-    text = "".join(" ".join("%.9g" % x for x in ray) + "\n" for ray in rays)
+    text = "".join(" ".join("%.17g" % x for x in ray) + "\n" for ray in rays)
 
     packed = np.frombuffer(answers("--binary", mesh, rays=rays.tobytes()), ANSWER)
 
@@ -114,6 +114,21 @@ def test_a_mesh_far_from_the_origin_is_met_as_exactly_as_one_at_it(tmp_path):
     rays = (f"{east + 0.3} {north + 0.69} 2 0 0 -1\n{east + 0.3} {north + 0.71} 2 0 0 -1\n")
 
     assert answers(mesh, rays=rays) == ["2,0", "inf,-1"]
+
+
+def test_the_distance_to_a_facet_much_larger_is_exact(tmp_path):
+    """A slope of 3 in 4, 8 km wide: a level ray meets it 4/3 as far off as it starts above it."""
+    mesh = tmp_path / "slope.obj"
+    mesh.write_text("v -4000 -4000 -3000\nv 4000 -4000 3000\nv 4000 4000 3000\n"
+                    "v -4000 4000 -3000\nf 1 2 3 4\n")
+    above_m = np.geomspace(1e-3, 1e3, 25)
+    east, north = (np.random.default_rng(2).uniform(-2000, 2000, (2, 25)))
+    rays = "".join(f"{x!r} {y!r} {0.75 * x + h!r} 1 0 0\n"
+                   for x, y, h in zip(east.tolist(), north.tolist(), above_m.tolist()))
+
+    t_m = [float(line.removesuffix(",0")) for line in answers(mesh, rays=rays)]
+
+    assert t_m == pytest.approx(above_m / 0.75, rel=2e-5)
 
 
 def test_no_rays_give_no_answers(plane):

@@ -1,0 +1,56 @@
+#include "facet_range.h"
+
+#include "polygon.h"
+
+#include <math.h>
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(double out[3], const double a[3], const double b[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+/* Finds the range to the plane of a triangle; returns the least weight of its vertices there, below
+ * 0 outside, NAN where the ray is parallel to it. Moeller, Trumbore 1997. */
+static double meet(const float *a, const float *b, const float *c, const double ray[6],
+                   double *out_range)
+{
+    double u[3], v[3], s[3], p[3], q[3];
+
+    for (int k = 0; k < 3; k++) {
+        u[k] = (double)b[k] - (double)a[k];
+        v[k] = (double)c[k] - (double)a[k];
+        s[k] = ray[k] - (double)a[k];
+    }
+    cross(p, ray + 3, v);
+    cross(q, s, u);
+    const double determinant = dot(u, p);
+    const double first = dot(s, p) / determinant, second = dot(ray + 3, q) / determinant;
+    *out_range = dot(v, q) / determinant;
+    return determinant == 0 ? (double)NAN : fmin(1 - first - second, fmin(first, second));
+}
+
+double facet_range(const uint32_t corner[4], const float (*position)[3], const double ray[6],
+                   double range)
+{
+    const double beside = -1e-4; /* least weight */
+    const uint32_t is_quad = corner[3] != UINT32_MAX;
+    const uint32_t d = is_quad ? polygon_diagonal(corner, position) : 0;
+    double best = beside;
+
+    for (uint32_t t = 0; t <= is_quad; t++) {
+        const float *a = position[corner[d]], *b = position[corner[d + 1 + t]];
+        const float *c = position[corner[(d + 2 + t) % 4]];
+        double at;
+        const double weight = meet(a, b, c, ray, &at);
+        if (!(weight >= best && at > 0)) continue;
+        best = weight;
+        range = at;
+    }
+    return range;
+}
