@@ -131,6 +131,47 @@ def test_the_distance_to_a_facet_much_larger_is_exact(tmp_path):
     assert t_m == pytest.approx(above_m / 0.75, rel=2e-5)
 
 
+@pytest.mark.parametrize("size", ["1e-310", "5e-324", "1e-40", "1e40", "1e308"])
+def test_directions_may_be_denormal_or_huge(plane, size):
+    rays = f"0 0 10 0 0 -{size}\n0 0 10 {size} 0 -{size}\n0 0 10 0 0 {size}\n"
+
+    lines = answers(plane, rays=rays)
+
+    assert [lines[0], lines[2]] == ["10,0", "inf,-1"]
+    assert float(lines[1].removesuffix(",0")) == pytest.approx(10 * 2**0.5, rel=1e-6)
+
+
+def test_a_warped_quad_is_its_two_triangles(tmp_path):
+    mesh = tmp_path / "warped.obj"
+    mesh.write_text("v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 0\nf 1 2 3 4\n")
+    # Cut from its first to its third corner: z = y on one side, z = x on the other
+    at = [(0.75, 0.25), (0.25, 0.75), (0.9, 0.4), (0.4, 0.9)]
+
+    lines = answers(mesh, rays="".join(f"{x} {y} 2 0 0 -1\n" for x, y in at))
+
+    assert [float(line.removesuffix(",0")) for line in lines] == pytest.approx(
+        [2 - min(p) for p in at], rel=1e-6)
+
+
+def test_no_ray_leaves_a_closed_sphere_on_a_national_grid(tmp_path):
+    centre = np.array([4_500_000.25, 5_400_000.75, 310.5])
+    corner, position = cases.icosphere(3, radius=10.0)
+    vertices = position.astype(float) + centre
+    mesh = tmp_path / "sphere.obj"
+    mesh.write_text("".join("v %.4f %.4f %.4f\n" % tuple(v) for v in vertices) +
+                    "".join("f %d %d %d\n" % tuple(c[:3] + 1) for c in corner))
+    pairs = np.concatenate([corner[:, [0, 1]], corner[:, [1, 2]], corner[:, [2, 0]]])
+    target = np.concatenate([vertices, vertices[pairs].mean(1)])
+    rays = "".join("%.6f %.6f %.6f %.9g %.9g %.9g\n" % (*centre, *v) for v in target - centre)
+
+    lines = answers(mesh, rays=rays)
+
+    t_m = [float(line.split(",")[0]) for line in lines]
+    assert np.isfinite(t_m).all()
+    # Up to the sagitta of an edge of 1.8 m nearer than the radius
+    assert min(t_m) > 9.9 and max(t_m) < 10.001
+
+
 def test_no_rays_give_no_answers(plane):
     assert answers(plane, rays="") == []
 

@@ -100,6 +100,24 @@ def test_no_ray_leaves_a_closed_sphere(opencl, origin):
     assert world.occluded(rays).all()
 
 
+def test_no_ray_leaves_a_closed_box_of_quads_that_stands_askew(opencl):
+    """At its corners, the middles of its edges and of the diagonals of its faces, where quads are
+    cut."""
+    corner, position = cases.box((-1, -2, -0.5), (1, 2, 0.5))
+    turn = np.linalg.qr(np.random.default_rng(16).normal(size=(3, 3)))[0]
+    mesh = corner, (position @ turn).astype(np.float32)
+    ends = mesh[1].astype(np.float64)
+    pairs = np.array([(a, b) for face in corner for a in face for b in face if a < b])
+    target = np.concatenate([ends, ends[pairs].mean(1)])
+    inside = np.random.default_rng(17).uniform(-0.49, 0.49, (500, 3)) @ turn
+    rays = np.hstack([np.repeat(inside, len(target), 0), np.tile(target, (len(inside), 1))])
+    rays[:, 3:] -= rays[:, :3]
+    world = RayWorld(opencl, mesh)
+
+    assert np.count_nonzero(world.trace(rays)[1] == NONE) == 0
+    assert world.occluded(rays).all()
+
+
 @pytest.mark.parametrize("shift", [1e3, 1e5])
 def test_no_ray_leaves_a_closed_sphere_far_from_the_origin(opencl, shift):
     mesh = cases.icosphere(3, radius=0.01 * shift, centre=(shift, -shift, shift))
@@ -134,7 +152,7 @@ def test_no_ray_from_14_km_falls_through_the_ground(opencl):
     assert world.occluded(rays).all()
 
 
-@pytest.mark.parametrize("zero", [0.0, -0.0, 1e-30, -1e-30])
+@pytest.mark.parametrize("zero", [0.0, -0.0, 1e-30, -1e-30, 1e-42, -1e-42])  # denormal
 @pytest.mark.parametrize("axis", [0, 1, 2])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_rays_along_an_axis_meet_a_box_whatever_the_sign_of_zero(opencl, zero, axis, sign):
