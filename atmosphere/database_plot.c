@@ -9,6 +9,7 @@
 enum { PATH_SIZE = 4096, SHOWN = 3, NAME_SIZE = 48 };
 
 #define LOG_ABOVE 20.0
+#define LOG_X_ABOVE 5.0
 #define DARK 1e-9 /* W m-2 sr-1 um-1 */
 
 /* Warm for what is emitted, cold for what is scattered. */
@@ -46,6 +47,7 @@ static status write_spectra(const atmosphere *a, const char *stem, const char *w
     c.x_unit = "um";
     c.x = a->wavelength_um;
     c.count = (size_t)a->point_count;
+    c.is_log_x = a->wavelength_um[c.count - 1] > LOG_X_ABOVE * a->wavelength_um[0];
     one = c;
     one.line_count = 1;
     for (size_t k = 0; k < c.line_count; k++) {
@@ -89,9 +91,9 @@ static status write_paths(const atmosphere *a, const char *stem)
     for (size_t i = 0; i < count; i++) {
         const size_t first = (size_t)path[i] * (size_t)a->point_count;
         const double zenith = a->path_zenith_first_deg + path[i] * a->path_zenith_step_deg;
-        snprintf(name[0][i], NAME_SIZE, "tau2 at %g", zenith);
-        snprintf(name[1][i], NAME_SIZE, "L_uE at %g", zenith);
-        snprintf(name[2][i], NAME_SIZE, "L_uS at %g", zenith);
+        snprintf(name[0][i], NAME_SIZE, "tau2 %g deg", zenith);
+        snprintf(name[1][i], NAME_SIZE, "L_uE %g deg", zenith);
+        snprintf(name[2][i], NAME_SIZE, "L_uS %g deg", zenith);
         tau[1 + i] = line_of(name[0][i], a->tau2 + first, emitted_rgb[i]);
         light[i] = line_of(name[1][i], a->path_emitted + first, emitted_rgb[i]);
         light[count + i] = line_of(name[2][i], a->path_scattered + first, scattered_rgb[i]);

@@ -24,7 +24,7 @@ enum {
 typedef struct axes {
     double low_x, high_x, low, high, step, step_x;
     double least; /* cut there before the logarithm */
-    bool is_log;
+    bool is_log, is_log_x;
 } axes;
 
 /* The smallest of 1, 2, 5, 10 ... that cuts the range into TICK_LIMIT steps or fewer. */
@@ -53,7 +53,10 @@ static double height_of(const axes *a, double value)
 
 static axes axes_of(const curve *c)
 {
-    axes a = {.low_x = c->x[0], .high_x = c->x[c->count - 1], .is_log = c->is_log};
+    axes a = {.low_x = c->x[0],
+              .high_x = c->x[c->count - 1],
+              .is_log = c->is_log,
+              .is_log_x = c->is_log_x};
     const double range = a.high_x - a.low_x, highest = highest_of(c);
 
     a.least = fmax(highest, 1e-30) * pow(10.0, -DECADES);
@@ -70,9 +73,34 @@ static axes axes_of(const curve *c)
     return a;
 }
 
+/* From 0 at the left end of the axis to 1. */
+static double share_of(const axes *a, double x)
+{
+    if (a->is_log_x) return log(x / a->low_x) / log(a->high_x / a->low_x);
+    return (x - a->low_x) / (a->high_x - a->low_x);
+}
+
+static double x_of(const axes *a, double share)
+{
+    if (a->is_log_x) return a->low_x * pow(a->high_x / a->low_x, share);
+    return a->low_x + (a->high_x - a->low_x) * share;
+}
+
 static uint32_t column_of(const axes *a, double x)
 {
-    return LEFT + (uint32_t)lround((WIDTH - 1) * (x - a->low_x) / (a->high_x - a->low_x));
+    return LEFT + (uint32_t)lround((WIDTH - 1) * share_of(a, x));
+}
+
+/* The first tick, and the one after another: each step, or 1, 2, 5, 10 and so on. */
+static double first_tick(const axes *a)
+{
+    if (!a->is_log_x) return a->step_x * ceil(a->low_x / a->step_x);
+    return round_step(TICK_LIMIT * a->low_x);
+}
+
+static double next_tick(const axes *a, double x)
+{
+    return a->is_log_x ? round_step(TICK_LIMIT * 1.01 * x) : x + a->step_x;
 }
 
 static uint32_t row_of(const axes *a, double height)
@@ -94,7 +122,7 @@ static status draw_axes(picture *pic, const axes *a, const char *x_unit)
         picture_fill(pic, LEFT, row_of(a, v), WIDTH, 1, grid);
         TRY(picture_text(pic, LEFT - 8 - width, row_of(a, v) + TEXT_SIZE / 2 - 2, text, TEXT_SIZE));
     }
-    for (double x = a->step_x * ceil(a->low_x / a->step_x); x <= a->high_x; x += a->step_x) {
+    for (double x = first_tick(a); x <= a->high_x; x = next_tick(a, x)) {
         snprintf(text, sizeof text, "%g %s", x, x_unit);
         TRY(picture_text_width(&width, text, TEXT_SIZE));
         picture_fill(pic, column_of(a, x), TOP, 1, HEIGHT, grid);
@@ -111,7 +139,7 @@ static void draw_line(picture *pic, const axes *a, const curve *c, const curve_l
     bool is_drawn = false;
 
     for (uint32_t column = 0, i = 0; column + PEN <= WIDTH; column++) {
-        const double x = a->low_x + (a->high_x - a->low_x) * column / (WIDTH - 1);
+        const double x = x_of(a, (double)column / (WIDTH - 1));
         while (i + 2 < c->count && c->x[i + 1] < x) i++;
         const double share = (x - c->x[i]) / (c->x[i + 1] - c->x[i]);
         const double value = line->value[i] + share * (line->value[i + 1] - line->value[i]);

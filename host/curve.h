@@ -21,7 +21,8 @@ typedef struct curve {
     size_t count;       /* 2 or more */
     const curve_line *line;
     size_t line_count;
-    bool is_log; /* a logarithmic axis; what lies below the highest value's 1e-6 is left out */
+    bool is_log;   /* a logarithmic axis; what lies below the highest value's 1e-6 is left out */
+    bool is_log_x; /* the same of x, all above 0 */
 } curve;
 
 /* Writes the picture; fails with STATUS_FILE where the file or the font cannot be opened. */

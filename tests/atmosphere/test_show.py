@@ -62,6 +62,16 @@ def test_the_thermal_sky_is_brightest_at_the_rim(atmosphere, tmp_path):
         assert row == sorted(row) and row[-1] > row[0] + 1
 
 
+def test_a_wide_range_of_wavelengths_has_a_logarithmic_axis(atmosphere, tmp_path):
+    plot(atmosphere, tmp_path, "june24_noon.radc")
+    row = read_png(tmp_path / "air_tau.png")[62]  # below the frame's top, above all curves
+    lines = numpy.flatnonzero((row == 215).all(axis=-1))
+    first, last = 1e4 / 24980, 1e4 / 500
+
+    # the axis begins in column 64 and is 710 wide
+    assert lines.tolist() == [64 + round(709 * numpy.log(x / first) / numpy.log(last / first)) for x in (0.5, 1, 2, 5, 10, last)]
+
+
 def test_the_summary_fits_on_a_page(atmosphere):
     said = atmosphere("show", SHIPPED / "june24_noon.radc").stdout
 
