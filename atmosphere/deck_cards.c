@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Places of the fields on cards 1, 2 and 3A1. */
+enum { MODEL = 0, IEMSCT = 2, IM = 11, IHAZE = 0, ICLD = 4, IVSA = 5, IPH = 1 };
 enum { LINE_SIZE = 256, CARD_1 = 15, CARD_2 = 11, CARD_3A1 = 4, COLUMNS = 5 };
 enum {
     OWN_LEVEL = 0,
@@ -46,18 +48,29 @@ out:
     return rc;
 }
 
-/* Field `index` of the last line, whose first fields are five columns wide; by its place among
+/* Reads the first fields of the last line, whole numbers in five columns each; by their place among
  * `count` numbers where the line holds that many. */
-static int whole_number(const taker *t, int count, int index)
+static status read_fields(const taker *t, const char *card, int count, int limit, int *out)
 {
+    status rc = STATUS_OK;
     double values[CARD_1];
     char field[COLUMNS + 1];
-    const size_t column = (size_t)index * COLUMNS;
+    const size_t length = strlen(t->line);
+    const bool is_free = record_numbers(t->line, (size_t)count, values) == count;
 
-    if (record_numbers(t->line, (size_t)count, values) == count) return (int)values[index];
-    if (strlen(t->line) <= column) return 0;
-    snprintf(field, sizeof field, "%s", t->line + column);
-    return atoi(field);
+    for (int i = 0; i < limit; i++) {
+        const size_t column = (size_t)i * COLUMNS;
+        snprintf(field, sizeof field, "%s", column < length ? t->line + column : "");
+        const int found = is_free ? 1 : record_numbers(field, 1, &values[i]);
+        if (found < 0 || found > 1) {
+            rc = record_file_reject(t->file, "%s: %d numbers, or numbers in the manual's columns",
+                                    card, count);
+            goto out;
+        }
+        out[i] = found ? (int)values[i] : 0;
+    }
+out:
+    return rc;
 }
 
 /* Cards 2C, 2C1, 2C2 and 2C3. */
@@ -65,10 +78,12 @@ static status take_profile(taker *t)
 {
     status rc = STATUS_OK;
 
+    int fields[3]; /* ML, IRD1, IRD2 */
+
     TRY(take(t, "card 2C"));
-    const int levels = whole_number(t, 3, 0);
-    const bool gases = whole_number(t, 3, 1) == 1, aerosols = whole_number(t, 3, 2) == 1;
-    TRY(take_several(t, levels * (1 + 2 * gases + aerosols), "cards 2C1 to 2C3 of each level"));
+    TRY(read_fields(t, "card 2C", 3, 3, fields));
+    const int cards = 1 + 2 * (fields[1] == 1) + (fields[2] == 1);
+    TRY(take_several(t, fields[0] * cards, "cards 2C1 to 2C3 of each level"));
 out:
     return rc;
 }
@@ -77,10 +92,11 @@ out:
 static status take_aerosol(taker *t)
 {
     status rc = STATUS_OK;
-    int regions = 0;
+    int regions = 0, fields[REGION_LIMIT]; /* IREG */
 
     TRY(take(t, "card 2D"));
-    for (int i = 0; i < REGION_LIMIT; i++) regions += whole_number(t, REGION_LIMIT, i) != 0;
+    TRY(read_fields(t, "card 2D", REGION_LIMIT, REGION_LIMIT, fields));
+    for (int i = 0; i < REGION_LIMIT; i++) regions += fields[i] != 0;
     TRY(take_several(t, regions * REGION_CARDS, "cards 2D1 and 2D2 of each region"));
 out:
     return rc;
@@ -91,17 +107,20 @@ static status take_air(taker *t)
 {
     status rc = STATUS_OK;
     deck_cards *run = t->run;
+    int first[IM + 1], second[IVSA + 1];
 
     TRY(take(t, "card 1"));
     const bool modtran = strchr("TF", t->line[0]);
     if (modtran) t->line[0] = ' ';
-    run->model = whole_number(t, CARD_1, 0);
-    run->iemsct = whole_number(t, CARD_1, 2);
-    run->im = whole_number(t, CARD_1, 11);
+    TRY(read_fields(t, "card 1", CARD_1, IM + 1, first));
+    run->model = first[MODEL];
+    run->iemsct = first[IEMSCT];
+    run->im = first[IM];
     const bool own_profile = run->model == OWN_LEVEL || run->model == OWN_PROFILE;
     TRY(take(t, "card 2"));
-    const int cloud = whole_number(t, CARD_2, 4), structure = whole_number(t, CARD_2, 5);
-    const bool own_aerosol = whole_number(t, CARD_2, 0) == OWN_AEROSOL || cloud == OWN_CLOUD;
+    TRY(read_fields(t, "card 2", CARD_2, IVSA + 1, second));
+    const int cloud = second[ICLD], structure = second[IVSA];
+    const bool own_aerosol = second[IHAZE] == OWN_AEROSOL || cloud == OWN_CLOUD;
     run->plain = !own_profile && !own_aerosol && cloud < CIRRUS && structure == 0;
     run->whole = !own_profile || run->im == 1;
     if (modtran && !run->plain) {
@@ -121,16 +140,18 @@ out:
 static status take_geometry(taker *t)
 {
     status rc = STATUS_OK;
+    int fields[IPH + 1];
 
     TRY(take(t, "card 3"));
     if (t->run->iemsct != SCATTERED) goto out;
     TRY(take(t, "card 3A1"));
-    const bool own_phase = whole_number(t, CARD_3A1, 1) == 1;
+    TRY(read_fields(t, "card 3A1", CARD_3A1, IPH + 1, fields));
     TRY(take(t, "card 3A2"));
-    if (!own_phase) goto out;
+    if (fields[IPH] != 1) goto out;
     t->run->plain = false;
     TRY(take(t, "card 3B1"));
-    TRY(take_several(t, whole_number(t, 1, 0), "cards 3B2, one each angle"));
+    TRY(read_fields(t, "card 3B1", 1, 1, fields));
+    TRY(take_several(t, fields[0], "cards 3B2, one each angle"));
 out:
     return rc;
 }

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #define ZERO_C_K 273.15
+#define SUPERSATURATED_K 1.0 /* soundings report some percent more than 100 */
 
 enum { WIDTH = 7, COLUMN_LIMIT = 16 };
 
@@ -45,6 +46,9 @@ static status add_level(sonde *s, const sonde_level *level, const record_file *f
         level->temperature_k > 350.0)
         return record_file_reject(file, "a level within -500 to 60000 m, up to 1100 hPa and 150 to "
                                         "350 K");
+    if (level->dew_point_k > level->temperature_k + SUPERSATURATED_K)
+        return record_file_reject(file, "a dew point up to the temperature, a relative humidity up "
+                                        "to 100");
     if (last &&
         (level->altitude_m <= last->altitude_m || level->pressure_hpa >= last->pressure_hpa))
         return record_file_reject(file, "a level above the one before, with less pressure");

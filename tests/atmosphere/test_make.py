@@ -107,7 +107,7 @@ def test_a_database_of_sunlight_by_night_is_warned_about(make, atmosphere):
 
 @pytest.mark.parametrize("mode, share", [("exact", 1.0), ("thesis", 0.9770)])
 def test_an_isotropic_sky_integrates_to_its_share(make, mode, share):
-    # 667 cm-1 at 350 K: the air is so opaque that every direction shows its first metres
+    # 667 cm-1 at 300 K: the air is so opaque that every direction shows its first metres
     write_sonde(make.folder / "hot.csv", [(z, p, 300.0) for z, p, _ in MODEL_2])
     result = make(low=660.0, high=680.0, step=10.0, more=f'mode = "{mode}"\nradiosonde = "hot.csv"')
     sky = radiance_database.sky_array(result)[..., 1, 0]
@@ -323,6 +323,8 @@ def test_a_broken_scene_is_explained(make, atmosphere, old, new, expected):
     ("pressure_hpa,altitude_m\n1000,0\n", "all of the columns"),
     ("pressure_hpa,altitude_m,temperature_c\n1000,0,20\n900,-10,15\n", "sonde:3"),
     ("pressure_hpa,altitude_m,temperature_c\n1000,0,20\n", "at least two levels"),
+    ("pressure_hpa,altitude_m,temperature_c,dew_point_c\n1000,0,20,25\n", "a dew point up to the temperature"),
+    ("pressure_hpa,altitude_m,temperature_c,relative_humidity_percent\n1000,0,20,150\n", "a relative humidity up to 100"),
     ("pressure_hpa,altitude_m,temperature_c\n900,1000,20\n500,5000,0\n", "ground_altitude_m"),
     (WYOMING.replace("hPa", "psi"), "the units hPa m C C"),
     ("a letter to a friend\n", "PRES HGHT TEMP DWPT"),
