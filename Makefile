@@ -248,6 +248,18 @@ $(BUILD)/exact-rays: $(EXACT_RAYS) $(BUILD)/library.a
 $(BENCH_RAYS) $(EXACT_RAYS): CPPFLAGS += -Ibench/rays
 $(BUILD)/bench/exact_rays/brute_force.o: CFLAGS += -O3
 
+# Mitsuba is for this comparison alone.
+MITSUBA := mitsuba==3.9.1 numpy
+
+.PHONY: bench-mitsuba
+
+## bench-mitsuba: compare exact mode with Mitsuba 3 (pip fetches it once, into build/mitsuba)
+bench-mitsuba: deps all
+	@build/mitsuba/bin/python -c 'import mitsuba' 2>/dev/null || { python3 -m venv build/mitsuba && \
+	    build/mitsuba/bin/pip install -q --disable-pip-version-check $(MITSUBA); } || true
+	@if [ -x build/mitsuba/bin/python ]; then build/mitsuba/bin/python bench/mitsuba_check.py; \
+	else $(PYTHON) bench/mitsuba_check.py; fi
+
 ## bench-view: measure the preview from inside: first picture, pictures a second, exact after rest
 bench-view: deps all
 	@for n in 1 2 3; do build/radsig-view scenes/airport/scene.toml --size 640x480 --bench \
