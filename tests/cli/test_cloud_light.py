@@ -114,6 +114,22 @@ def test_from_inside_a_thick_cloud_is_bright_above_and_darker_below(program, tmp
     assert planes == pytest.approx(expected, rel=1e-3)
 
 
+def test_scattering_clouds_within_each_other_are_invisible_where_all_has_their_temperature(program, radiance, tmp_path):
+    sky = {**UNIFORM, "sky_temperature_k": 280.0, "sky_radiance_w_m2_sr_um": 0.0, "sun_irradiance_w_m2_um": 0.0}
+    changes = scene(tmp_path, .6, 60.0, half_m=30, atmosphere={"uniform": sky}, camera={"pixels": [8, 6]},
+                    site={"ground_material": "wall"}, band=[{"name": "lwir", "wavelength_um": [8.0, 14.0]}])
+    inner = slab(10).replace("cloud", "smoke").replace(" 20\n", " 24\n")
+    changes["meshes"]["inner.obj"] = inner
+    changes["geometry"] += [{"file": "inner.obj"}]
+    changes["material"] += [{**changes["material"][1], "name": "smoke"}]
+    for material in changes["material"]:
+        material["temperature_k"] = 280.0
+
+    got = program.render(tmp_path, **changes)
+
+    assert got.planes["radiance_lwir"] == pytest.approx(radiance.band_planck(8, 14, 280), rel=2e-4)
+
+
 def test_thesis_mode_knows_no_scattering(program, tmp_path):
     got = program.render(tmp_path, **scene(tmp_path, 1.0, 4000.0, camera=ABOVE,
                                            render={"mode": "thesis", "thermal": "fixed"}))
