@@ -2,148 +2,264 @@
 
 #include "../kernels/conduction.h"
 #include "conduction.h"
-#include "facet_sample.h"
 #include "thermal_model.h"
+#include "view_factor.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { FACETS_AT_ONCE = 1 << 14, WORK_ROWS = 9 };
+enum { WORK_ROWS = 9, LANES = 16, PASSES = 8 };
 
-/* Shares of the sun, a byte for every slot, as lit.h reads them: behind the words of the bits. */
-typedef struct shares {
-    uint32_t bit_words, words, slots;
-    uint32_t *row; /* shape (words, count) */
-    size_t count;
-} shares;
+#define LEAST_SHARE 0.005f /* of a view, that facets take */
+#define SETTLED_W_M2 2.0f
 
-static uint32_t share_of(const uint32_t *words, const shares *s, uint32_t traced_words,
-                         uint32_t slot)
+/* What stays the same over the passes. */
+typedef struct exchange {
+    const scene *s;
+    thermal *model;
+    facet_record *facet; /* shape (facet_count) */
+    size_t facet_count;
+    facet_light sun;
+    device_memory lit;
+    device_memory sent_w_m2;         /* shape (steps, facet_count) */
+    device_memory before_w_m2;       /* what was received before, shape (steps, columns) */
+    device_memory view, seen, share; /* of the columns */
+} exchange;
+
+static thermal_span span_of(const exchange *x, size_t count)
 {
-    if (traced_words > s->bit_words) return words[s->bit_words + slot / 4] >> (slot % 4 * 8) & 255u;
-    return (words[slot / 32] >> (slot % 32) & 1u) * 255u;
+    return (thermal_span){.facet_count = (uint)count,
+                          .row_count = (uint)x->model->step_count,
+                          .sunlit_words = x->sun.words,
+                          .weight = 1.0f,
+                          .sunlit_period = x->sun.slots,
+                          .step_s = (float)x->model->step_s,
+                          .step_count = (uint)x->model->step_count};
 }
 
-/* Puts the mean of a facet's points into its place. */
-static void set_mean(shares *s, const uint32_t *traced, uint32_t traced_words, size_t place)
-{
-    for (uint32_t slot = 0; slot < s->slots; slot++) {
-        uint32_t sum = 0;
-        for (uint32_t k = 0; k < FACET_SAMPLES; k++)
-            sum += share_of(traced + k * traced_words, s, traced_words, slot);
-        s->row[(s->bit_words + slot / 4) * s->count + place] |=
-            (sum + FACET_SAMPLES / 2) / FACET_SAMPLES << (slot % 4 * 8);
-    }
-}
-
-/* Traces the points of the facets at places first .. first + count - 1. */
-static status trace_some(device *dev, const geometry *g, const exchange_light *light,
-                         const uint32_t *facet, size_t first, uint32_t count, shares *out)
+/* Puts the ladders of facets on the device. */
+static status upload_layered(const thermal *t, const facet_record *facet, size_t count,
+                             device_memory *out)
 {
     status rc = STATUS_OK;
-    const uint32_t points = count * FACET_SAMPLES, words = sun_history_words(light->sun);
-    const size_t bytes = (size_t)points * words * sizeof(uint32_t);
-    device_memory hit = NULL, history = NULL;
-    hit_record *at = malloc(points * sizeof *at);
-    uint32_t *traced = malloc(bytes);
+    layered_record *layered = malloc((count + 1) * sizeof *layered);
 
-    NEED(at && traced, STATUS_MEMORY, "no memory for %u points", points);
-    for (uint32_t i = 0; i < count; i++) facet_sample(at + i * FACET_SAMPLES, g, facet[first + i]);
-    TRY(device_allocate(dev, &hit, points * sizeof *at, at));
-    TRY(device_allocate(dev, &history, bytes, NULL));
-    TRY(sun_history_trace(light->sun, light->rays, light->facets, points, hit, history));
-    TRY(device_download(dev, history, 0, bytes, traced));
-    for (uint32_t i = 0; i < count; i++)
-        set_mean(out, traced + (size_t)i * FACET_SAMPLES * words, words, first + i);
+    NEED(layered, STATUS_MEMORY, "no memory for %zu facets of layers", count);
+    thermal_fill_layered(t, facet, count, layered);
+    TRY(device_allocate(t->dev, out, count * sizeof *layered, layered));
 out:
-    device_release(history);
-    device_release(hit);
-    free(traced);
-    free(at);
+    free(layered);
     return rc;
 }
 
-/* Means over the points of facets. */
-static status trace_shares(device *dev, const geometry *g, const exchange_light *light,
-                           const uint32_t *facet, shares *out)
+/* The sun on the facets of places. */
+static status upload_lit(const exchange *x, const conduction_map *map, device_memory *out)
 {
     status rc = STATUS_OK;
+    uint32_t *row = malloc(map->count * x->sun.words * sizeof *row + 1);
 
-    out->slots = sun_history_slots(light->sun);
-    out->bit_words = (out->slots + 31) / 32;
-    out->words = out->bit_words + (out->slots + 3) / 4;
-    out->row = calloc(out->count * out->words + 1, sizeof *out->row);
-    NEED(out->row, STATUS_MEMORY, "no memory for the sun on %zu facets", out->count);
-    for (size_t first = 0; first < out->count; first += FACETS_AT_ONCE) {
-        const size_t left = out->count - first;
-        TRY(trace_some(dev, g, light, facet, first,
-                       (uint32_t)(left < FACETS_AT_ONCE ? left : FACETS_AT_ONCE), out));
-    }
+    NEED(row, STATUS_MEMORY, "no memory for the sun on %zu facets", map->count);
+    for (size_t w = 0; w < x->sun.words; w++)
+        for (size_t i = 0; i < map->count; i++)
+            row[w * map->count + i] = x->sun.row[w * x->sun.count + map->facet[i]];
+    TRY(device_allocate(x->model->dev, out, map->count * x->sun.words * sizeof *row, row));
 out:
+    free(row);
     return rc;
 }
 
 /* Launches the kernel over the patches; the heat along facets stays with the model. */
-static status conduct(thermal *t, const conduction_map *map, const layered_record *facet,
-                      const shares *sun)
+static status conduct_map(const exchange *x, const conduction_map *map, device_memory facets)
 {
     status rc = STATUS_OK;
+    thermal *t = x->model;
     const size_t n = map->count, row = n * sizeof(float);
-    const thermal_span span = {.facet_count = (uint)n,
-                               .sunlit_words = sun->words,
-                               .sunlit_period = sun->slots,
-                               .step_s = (float)t->step_s,
-                               .step_count = (uint)t->step_count};
+    const thermal_span span = span_of(x, n);
     const device_shape shape = {{map->patch_count, 1}, 1};
-    device_memory first = NULL, facets = NULL, links = NULL, lit = NULL, groups = NULL, rows = NULL;
+    device_memory first = NULL, links = NULL, lit = NULL, groups = NULL, rows = NULL;
 
     TRY(device_allocate(t->dev, &first, (map->patch_count + 1) * sizeof *map->patch_first,
                         map->patch_first));
-    TRY(device_allocate(t->dev, &facets, n * sizeof *facet, facet));
     TRY(device_allocate(t->dev, &links, n * sizeof *map->link, map->link));
-    if (sun->words > 0) TRY(device_allocate(t->dev, &lit, row * sun->words, sun->row));
+    if (x->sun.words > 0) TRY(upload_lit(x, map, &lit));
     TRY(device_allocate(t->dev, &groups, n * sizeof(conduction_group), NULL));
     TRY(device_allocate(t->dev, &rows, row * WORK_ROWS, NULL));
     TRY(device_allocate(t->dev, &t->lateral_w_m2, row * 2 * t->step_count, NULL));
     TRY(device_run(t->dev, "conduction", shape, ARG(span), ARG(map->patch_count), ARG(first),
                    ARG(facets), ARG(links), ARG(t->forcing), ARG(lit), ARG(t->power_materials),
-                   ARG(t->power), ARG(groups), ARG(rows), ARG(t->lateral_w_m2)));
+                   ARG(t->power), ARG(t->received_columns), ARG(t->received_w_m2), ARG(groups),
+                   ARG(rows), ARG(t->lateral_w_m2)));
     t->lateral_columns = (uint32_t)n;
 out:
     device_release(rows);
     device_release(groups);
     device_release(lit);
     device_release(links);
-    device_release(facets);
     device_release(first);
     return rc;
 }
 
-status exchange_run(device *dev, const scene *s, thermal *model, const exchange_light *light,
-                    facet_record *facet)
+/* Finds the patches, and what passes along them. */
+static status conduct(const exchange *x)
 {
     status rc = STATUS_OK;
     conduction_map *map = NULL;
     facet_record *at_place = NULL;
-    layered_record *layered = NULL;
-    shares sun = {0};
+    device_memory facets = NULL;
 
-    TRY(conduction_find(&map, s->shape, facet, model->material));
+    TRY(conduction_find(&map, x->s->shape, x->facet, x->model->material));
     if (map->count == 0) goto out;
     at_place = malloc(map->count * sizeof *at_place);
-    layered = malloc(map->count * sizeof *layered);
-    NEED(at_place && layered, STATUS_MEMORY, "no memory for %zu facets of patches", map->count);
-    for (size_t i = 0; i < map->count; i++) at_place[i] = facet[map->facet[i]];
-    thermal_fill_layered(model, at_place, map->count, layered);
-    sun.count = map->count;
-    if (light) TRY(trace_shares(dev, s->shape, light, map->facet, &sun));
-    TRY(conduct(model, map, layered, &sun));
+    NEED(at_place, STATUS_MEMORY, "no memory for %zu facets of patches", map->count);
+    for (size_t i = 0; i < map->count; i++) at_place[i] = x->facet[map->facet[i]];
+    TRY(upload_layered(x->model, at_place, map->count, &facets));
+    TRY(conduct_map(x, map, facets));
     /* Backwards: a filler repeats the facet before it, without its neighbours. */
-    for (size_t i = map->count; i-- > 0;) facet[map->facet[i]].lateral_column = (uint32_t)i + 1;
+    for (size_t i = map->count; i-- > 0;) x->facet[map->facet[i]].lateral_column = (uint32_t)i + 1;
 out:
-    free(sun.row);
-    free(layered);
+    device_release(facets);
     free(at_place);
     conduction_free(map);
+    return rc;
+}
+
+/* Gives a column to each facet that sees others, and keeps what they see. */
+static status keep_views(exchange *x, const view_factors *f)
+{
+    status rc = STATUS_OK;
+    thermal *t = x->model;
+    uint32_t columns = 0;
+    view_record *kept = malloc((f->facet_count + 1) * sizeof *kept);
+
+    t->sky_share = malloc((f->facet_count + 1) * sizeof *t->sky_share);
+    NEED(kept && t->sky_share, STATUS_MEMORY, "no memory for %zu views", f->facet_count);
+    for (size_t i = 0; i < f->facet_count; i++) {
+        const view_record *v = &f->view[i];
+        if (1.0f - v->sky - v->below < LEAST_SHARE) continue;
+        kept[columns] = *v;
+        t->sky_share[columns] = v->sky;
+        x->facet[i].received_column = ++columns;
+    }
+    TRY(device_allocate(t->dev, &x->view, columns * sizeof *kept, kept));
+    TRY(device_allocate(t->dev, &x->seen, f->share_count * sizeof *f->seen, f->seen));
+    TRY(device_allocate(t->dev, &x->share, f->share_count * sizeof *f->share, f->share));
+    TRY(device_allocate(t->dev, &t->received_w_m2, columns * t->step_count * sizeof(float), NULL));
+    TRY(device_allocate(t->dev, &x->before_w_m2, columns * t->step_count * sizeof(float), NULL));
+    TRY(device_allocate(t->dev, &x->sent_w_m2, x->facet_count * t->step_count * sizeof(float),
+                        NULL));
+    t->received_columns = columns;
+out:
+    free(kept);
+    return rc;
+}
+
+static status find_views(exchange *x, const facet_light_world *light)
+{
+    status rc = STATUS_OK;
+    const scene *s = x->s;
+    shape_factor_grid *grid = NULL;
+    view_factors *factors = NULL;
+
+    TRY(shape_factor_open(&grid, light->dev, SHAPE_FACTOR_COSINE, s->hemisphere_zenith_step_deg,
+                          s->hemisphere_azimuth_step_deg));
+    TRY(view_factor_trace(&factors, light->rays, grid, s->shape, x->facet_count));
+    TRY(keep_views(x, factors));
+out:
+    view_factor_free(factors);
+    shape_factor_free(grid);
+    return rc;
+}
+
+/* Takes all facets through the weather with what they received so far, then lets them send anew.
+ *   is_first   nothing was received yet */
+static status pass(exchange *x, bool is_first)
+{
+    status rc = STATUS_OK;
+    thermal *t = x->model;
+    const thermal_span span = span_of(x, x->facet_count);
+    const device_shape shape = {{(x->facet_count + LANES - 1) / LANES, 1}, 4};
+    const uint32_t received = is_first ? 0 : t->received_columns, n = span.facet_count;
+    device_memory facets = NULL;
+
+    TRY(upload_layered(t, x->facet, x->facet_count, &facets));
+    TRY(device_run(t->dev, "layered", shape, ARG(span), ARG(facets), ARG(t->forcing), ARG(x->lit),
+                   ARG(t->power_materials), ARG(t->power), ARG(t->lateral_columns),
+                   ARG(t->lateral_w_m2), ARG(received), ARG(t->received_w_m2), ARG(x->sent_w_m2)));
+    TRY(device_run(t->dev, "radiosity", shape2(n, t->step_count), ARG(n), ARG(facets),
+                   ARG(t->forcing), ARG(received), ARG(t->received_w_m2), ARG(x->sent_w_m2)));
+    const device_memory old = t->received_w_m2;
+    t->received_w_m2 = x->before_w_m2;
+    x->before_w_m2 = old;
+    TRY(device_run(t->dev, "irradiation", shape2(t->received_columns, t->step_count),
+                   ARG(t->received_columns), ARG(n), ARG(x->view), ARG(x->seen), ARG(x->share),
+                   ARG(t->forcing), ARG(x->sent_w_m2), ARG(t->received_w_m2)));
+out:
+    device_release(facets);
+    return rc;
+}
+
+/* Tells whether the last pass changed what facets receive. */
+static status find_change(const exchange *x, bool *out_changes)
+{
+    status rc = STATUS_OK;
+    const thermal *t = x->model;
+    const uint32_t columns = t->received_columns, steps = (uint32_t)t->step_count;
+    device_memory most = NULL;
+    float *w_m2 = malloc(columns * sizeof *w_m2);
+
+    NEED(w_m2, STATUS_MEMORY, "no memory for %u facets", columns);
+    TRY(device_allocate(t->dev, &most, columns * sizeof *w_m2, NULL));
+    TRY(device_run(t->dev, "largest_change", shape1(columns), ARG(columns), ARG(steps),
+                   ARG(x->before_w_m2), ARG(t->received_w_m2), ARG(most)));
+    TRY(device_download(t->dev, most, 0, columns * sizeof *w_m2, w_m2));
+    *out_changes = false;
+    for (uint32_t i = 0; i < columns; i++) *out_changes |= w_m2[i] > SETTLED_W_M2;
+out:
+    device_release(most);
+    free(w_m2);
+    return rc;
+}
+
+/* Passes until nothing changes. */
+static status send_and_receive(exchange *x)
+{
+    status rc = STATUS_OK;
+    bool changes = x->model->received_columns > 0;
+
+    for (int i = 0; i < PASSES && changes; i++) {
+        TRY(pass(x, i == 0));
+        if (i > 0) TRY(find_change(x, &changes));
+    }
+out:
+    return rc;
+}
+
+static void release(exchange *x)
+{
+    device_release(x->before_w_m2);
+    device_release(x->share);
+    device_release(x->seen);
+    device_release(x->view);
+    device_release(x->sent_w_m2);
+    device_release(x->lit);
+    facet_light_free(&x->sun);
+}
+
+status exchange_run(const scene *s, thermal *model, const facet_light_world *light,
+                    facet_record *facet, size_t facet_count)
+{
+    status rc = STATUS_OK;
+    exchange x = {.s = s, .model = model, .facet = facet, .facet_count = facet_count};
+
+    if (!s->thesis) TRY(facet_light_trace(&x.sun, light, facet_count));
+    if (x.sun.words > 0)
+        TRY(device_allocate(light->dev, &x.lit, facet_count * x.sun.words * sizeof *x.sun.row,
+                            x.sun.row));
+    if (s->facet_longwave) TRY(find_views(&x, light));
+    TRY(send_and_receive(&x));
+    if (s->lateral_conduction) TRY(conduct(&x));
+    if (model->received_columns > 0) TRY(pass(&x, false));
+out:
+    release(&x);
     return rc;
 }

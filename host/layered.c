@@ -137,6 +137,7 @@ void layered_fill(layered_record *out, const facet_record *facet, const material
         .film_limit_kg_m2 = (float)FILM_LIMIT_KG_M2,
         .material = facet->material,
         .lateral_column = facet->lateral_column,
+        .received_column = facet->received_column,
     };
     memcpy(out->normal, facet->normal, sizeof out->normal);
     fill_ladder(out, &c);

@@ -37,7 +37,8 @@ typedef struct layered_matter {
 /* Returns a matter of no further layer, dry, with its back by area. */
 layered_matter layered_matter_default(void);
 
-/* Fills the record of a facet: eight nodes, each half as thick again as the one before it.
+/* Fills the record of a facet but for its view: eight nodes, each half as thick again as the one
+ * before it.
  *   mean_air_k   for backs that state no temperature
  * Thickness is above 0. Without conductivity a material has one temperature through and through. */
 void layered_fill(layered_record *out, const facet_record *facet, const material_record *material,

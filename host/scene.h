@@ -80,7 +80,8 @@ typedef struct scene {
     uint32_t strata; /* a pixel is the mean of so many samples across and down; 1: its middle */
     uint32_t seed;   /* of random numbers */
     scene_thermal thermal;
-    bool lateral_conduction; /* thermal layered: heat passes from facet to facet along a material */
+    /* With thermal layered heat passes from facet to facet: along a material, by longwave. */
+    bool lateral_conduction, facet_longwave;
     double hemisphere_zenith_step_deg, hemisphere_azimuth_step_deg;
     size_t input_count;
     scene_input *inputs;

@@ -285,8 +285,9 @@ void scene_read_render(scene_reader *reader)
     scene_table_word(&t, "radiance", radiances, 2, &radiance);
     s->thesis = mode == 1;
     s->thermal = (scene_thermal)thermal;
-    s->lateral_conduction = true;
+    s->lateral_conduction = s->facet_longwave = true;
     scene_table_bool(&t, "lateral_conduction", &s->lateral_conduction);
+    scene_table_bool(&t, "facet_longwave", &s->facet_longwave);
     s->hemisphere_zenith_step_deg = 15.0;
     s->hemisphere_azimuth_step_deg = 30.0;
     for (uint32_t i = 0; i < s->band_count; i++) s->bands[i].is_mean = radiance == 1;

@@ -122,6 +122,34 @@ out:
     return rc;
 }
 
+uint32_t shape_factor_part_of(uint32_t cell, uint32_t parts)
+{
+    const uint32_t golden = 2654435769u; /* 2^32 (sqrt(5) - 1) / 2 */
+
+    return (cell * golden >> 16) * parts >> 16;
+}
+
+status shape_factor_open_part(shape_factor_grid **out, device *dev, const shape_factor_grid *grid,
+                              uint32_t part, uint32_t parts)
+{
+    status rc = STATUS_OK;
+    shape_factor_grid *some = calloc(1, sizeof *some);
+    float(*cell)[4] = malloc(grid->cell_count * sizeof *cell);
+
+    NEED(some && cell, STATUS_MEMORY, "no memory for a hemisphere");
+    TRY(device_download(dev, grid->cell, 0, grid->cell_count * sizeof *cell, cell));
+    for (uint32_t i = 0; i < grid->cell_count; i++)
+        if (shape_factor_part_of(i, parts) == part)
+            memmove(cell[some->cell_count++], cell[i], sizeof *cell);
+    TRY(device_allocate(dev, &some->cell, some->cell_count * sizeof *cell, cell));
+    *out = some;
+    some = NULL;
+out:
+    free(cell);
+    shape_factor_free(some);
+    return rc;
+}
+
 void shape_factor_free(shape_factor_grid *grid)
 {
     if (!grid) return;
@@ -139,11 +167,9 @@ device_memory shape_factor_cells(const shape_factor_grid *grid)
     return grid->cell;
 }
 
-status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
-                        const shape_factor_tables *tables, const float *sun,
-                        const shape_factor_points *points, device_memory out_background)
+status shape_factor_trace(const shape_factor_grid *grid, const ray_scene *scene, const float *sun,
+                          const shape_factor_points *points)
 {
-    status rc = STATUS_OK;
     static const float nowhere[3];
     const float *towards = sun ? sun : nowhere;
     const world_record world = ray_scene_world(scene);
@@ -152,11 +178,22 @@ status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
     const uint32_t at_once = device_describe(dev)->ray_lanes == 1 ? 1 : CELLS_AT_ONCE;
     const uint32_t cells = (grid->cell_count + at_once - 1) / at_once;
 
-    TRY(device_run(dev, "hemisphere", device_ray_shape(dev, points->count, cells),
-                   ARG(points->count), ARG(grid->cell_count), ARG(towards[0]), ARG(towards[1]),
-                   ARG(towards[2]), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
-                   ARG(points->hit), ARG(points->met)));
-    TRY(device_run(dev, "background", shape1(points->count), ARG(points->count),
+    return device_run(dev, "hemisphere", device_ray_shape(dev, points->count, cells),
+                      ARG(points->count), ARG(grid->cell_count), ARG(towards[0]), ARG(towards[1]),
+                      ARG(towards[2]), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
+                      ARG(points->hit), ARG(points->met));
+}
+
+status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
+                        const shape_factor_tables *tables, const float *sun,
+                        const shape_factor_points *points, device_memory out_background)
+{
+    status rc = STATUS_OK;
+    const world_record world = ray_scene_world(scene);
+    const device_memory nodes = ray_scene_nodes(scene), blocks = ray_scene_blocks(scene);
+
+    TRY(shape_factor_trace(grid, scene, sun, points));
+    TRY(device_run(ray_scene_device(scene), "background", shape1(points->count), ARG(points->count),
                    ARG(grid->cell_count), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
                    ARG(tables->facet), ARG(tables->temperature_k), ARG(tables->material),
                    ARG(points->hit), ARG(points->met), ARG(out_background)));

@@ -27,6 +27,14 @@ typedef struct shape_factor_grid shape_factor_grid;
  * the thesis: cell centres instead of borders, normalised weights, see docs/departures.md. */
 status shape_factor_open(shape_factor_grid **out, device *dev, shape_factor_reading reading,
                          double zenith_step_deg, double azimuth_step_deg);
+
+/* Which of so many parts a cell belongs to: neighbours go to different ones, as the multiples of the
+ * golden section are spread. */
+uint32_t shape_factor_part_of(uint32_t cell, uint32_t parts);
+
+/* Opens the cells of one part, in their order and with their weights. */
+status shape_factor_open_part(shape_factor_grid **out, device *dev, const shape_factor_grid *grid,
+                              uint32_t part, uint32_t parts);
 void shape_factor_free(shape_factor_grid *grid);
 
 /* What the rays may meet; all three are read at the ground's facet too. */
@@ -42,6 +50,10 @@ typedef struct shape_factor_points {
     device_memory hit; /* hit_record, shape (count); only point, facet and normal are read */
     device_memory met; /* uint32, shape (shape_factor_cell_count, count): written, hemisphere.cl */
 } shape_factor_points;
+
+/* Casts the rays of the hemisphere above every point and tells what they meet; the rest as below. */
+status shape_factor_trace(const shape_factor_grid *grid, const ray_scene *scene, const float *sun,
+                          const shape_factor_points *points);
 
 /* Samples the hemisphere above every point; both sides of a facet are seen. A ray that leaves the
  * scene sees the sky, or the ground plane if that is there and the ray goes down.

@@ -174,13 +174,12 @@ out:
     return rc;
 }
 
-/* Heat between facets; in thesis mode they are in the sun whenever it shines. */
 static status exchange_heat(temperature *t, const scene *s, const ray_scene *rays)
 {
-    const exchange_light light = {rays, t->sun, t->facets};
+    const facet_light_world light = {t->dev, s->shape, rays, t->sun, t->facets};
 
-    if (s->thermal != SCENE_THERMAL_LAYERED || !s->lateral_conduction) return STATUS_OK;
-    return exchange_run(t->dev, s, t->model, s->thesis ? NULL : &light, t->facet);
+    if (s->thermal != SCENE_THERMAL_LAYERED) return STATUS_OK;
+    return exchange_run(s, t->model, &light, t->facet, t->facet_count);
 }
 
 static status warm_facets(temperature *t, const scene *s, const ray_scene *rays)

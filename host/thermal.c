@@ -97,10 +97,12 @@ out:
 void thermal_free(thermal *t)
 {
     if (!t) return;
+    device_release(t->received_w_m2);
     device_release(t->lateral_w_m2);
     device_release(t->power);
     device_release(t->forcing);
     device_release(t->materials);
+    free(t->sky_share);
     free(t->layered);
     free(t->material);
     free(t);
@@ -118,12 +120,15 @@ void thermal_fill_layered(const thermal *t, const facet_record *facet, size_t co
                           layered_record *out)
 {
     for (size_t i = 0; i < count; i++) {
-        const uint32_t m = facet[i].material;
-        if (facet[i].stated_temperature_k > 0.0f) {
-            out[i] = (layered_record){.stated_temperature_k = facet[i].stated_temperature_k};
-            continue;
-        }
-        layered_fill(&out[i], &facet[i], &t->material[m], &t->layered[m], t->mean_air_k);
+        const uint32_t m = facet[i].material, column = facet[i].received_column;
+        if (facet[i].stated_temperature_k > 0.0f)
+            out[i] = (layered_record){.stated_temperature_k = facet[i].stated_temperature_k,
+                                      .emissivity = t->material[m].thermal_emissivity,
+                                      .received_column = column};
+        else
+            layered_fill(&out[i], &facet[i], &t->material[m], &t->layered[m], t->mean_air_k);
+        out[i].sky_share =
+            column > 0 ? t->sky_share[column - 1] : 0.5f * (1.0f + facet[i].normal[2]);
     }
 }
 
@@ -163,7 +168,8 @@ static status compute(const thermal *t, const batch *b, thermal_span span, float
     if (t->layered)
         TRY(device_run(t->dev, "layered", shape, ARG(span), ARG(facets), ARG(t->forcing), ARG(lit),
                        ARG(t->power_materials), ARG(t->power), ARG(t->lateral_columns),
-                       ARG(t->lateral_w_m2), ARG(temperature_k)));
+                       ARG(t->lateral_w_m2), ARG(t->received_columns), ARG(t->received_w_m2),
+                       ARG(temperature_k)));
     else
         TRY(device_run(t->dev, "thermal", shape, ARG(span), ARG(facets), ARG(t->materials),
                        ARG(t->forcing), ARG(lit), ARG(t->power_materials), ARG(t->power),

@@ -13,9 +13,12 @@ struct thermal {
     device_memory power;      /* shape (steps, power_materials) */
     uint32_t power_materials; /* 0: no material's power changes */
     size_t step_count;
-    double step_s, time_h;      /* of the image, since the first step */
-    device_memory lateral_w_m2; /* shape (2 steps, lateral_columns): heat along facets */
-    uint32_t lateral_columns;   /* 0: none */
+    double step_s, time_h;       /* of the image, since the first step */
+    device_memory lateral_w_m2;  /* shape (2 steps, lateral_columns): heat along facets */
+    uint32_t lateral_columns;    /* 0: none */
+    device_memory received_w_m2; /* shape (steps, received_columns): longwave */
+    uint32_t received_columns;   /* 0: none */
+    float *sky_share;            /* shape (received_columns): of the views */
 };
 
 /* Fills the ladders of facets; those that state a temperature need none.

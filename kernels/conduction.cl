@@ -140,21 +140,23 @@ static void go_through_days(const patch_run *p, uint day, global float *out_w_m2
 /* A patch a work-item, through the weather.
  * Launch: (patch_count). Arrays of facets have span.facet_count of them, patch after patch, each
  * patch filled up to a multiple of 16 with facets without neighbours. patch_first: (patch_count + 1);
- * facets, forcing, sunlit, power: as in layered.cl; links: neighbours as places in these arrays;
+ * facets, forcing, sunlit, power, received_w_m2: as in layered.cl; links: neighbours as places in these arrays;
  * groups: (facet_count / LANES_WIDTH), numbers: (9, facet_count), both to work with;
  * lateral_w_m2: (2 steps, facet_count), see layered_history.h. */
 kernel void conduction(const thermal_span span, const uint patch_count,
                        global const uint *patch_first, global const layered_record *facets,
                        global const conduction_record *links, global const forcing_record *forcing,
                        global const uint *sunlit, const uint power_materials,
-                       global const float *power, global conduction_group *groups,
+                       global const float *power, const uint received_columns,
+                       global const float *received_w_m2, global conduction_group *groups,
                        global float *numbers, global float *lateral_w_m2)
 {
     const uint patch = get_global_id(0);
     const size_t n = span.facet_count;
     if (patch >= patch_count) return;
 
-    const patch_run p = {.world = {span, forcing, sunlit, 0, power_materials, power, 0, NULL},
+    const patch_run p = {.world = {span, forcing, sunlit, 0, power_materials, power, 0,
+                                   received_columns, NULL, received_w_m2},
                          .first = patch_first[patch],
                          .end = patch_first[patch + 1],
                          .facets = facets,

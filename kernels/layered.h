@@ -1,6 +1,7 @@
 /* Layered: the heat balance of one facet of several layers, beyond the thesis' THERM: unequal nodes,
  * a condition behind, evaporation. Backward Euler, relinearised each sub-step.
- *   surroundings, sky, rain   as thermal.h has them; the whole front is exposed
+ *   surroundings, sky, rain   as thermal.h has them; the whole front is exposed; or longwave as it
+ *                             comes from sky and facets
  *   evaporation               rho L (q*(Ts) - qa) / (ra + rs), ra = rho cp / h; none from dry matter
  *   film                      rain that stays, up to a limit, evaporates without rs
  *   along the facet           heat from its neighbours is spread over the nodes of its own material by
@@ -37,8 +38,11 @@ typedef struct layered_record {
     uint material;
     uint lateral_column; /* of rows of heat along the facet, counted from 1; 0: none */
     float lateral_share[LAYERED_NODES]; /* of that heat, for each node; sum 1 */
+    float sky_share;                    /* of the view */
+    uint received_column; /* of rows of longwave that reaches the front, counted from 1; 0: none */
+    uint unused[2];
 } layered_record;
-RECORD_SIZE(layered_record, 160);
+RECORD_SIZE(layered_record, 176);
 
 typedef struct layered_body {
     thermal_body face; /* capacity and conductance are not used */
@@ -48,7 +52,7 @@ typedef struct layered_body {
     lanes stated_k;
     lanes lateral_share[LAYERED_NODES];
     uint material[LANES_WIDTH];
-    uint lateral_column[LANES_WIDTH];
+    uint lateral_column[LANES_WIDTH], received_column[LANES_WIDTH];
 } layered_body;
 
 typedef struct layered_state {
@@ -90,7 +94,9 @@ static inline void layered_set_body(layered_body *body, int lane, const layered_
     for (int i = 0; i < LAYERED_NODES; i++)
         LAYERED_SET(body, lateral_share[i], lane, record->lateral_share[i]);
     body->material[lane] = record->material;
+    LAYERED_SET(body, face.sky, lane, record->sky_share);
     body->lateral_column[lane] = record->lateral_column;
+    body->received_column[lane] = record->received_column;
 }
 
 static inline layered_air layered_air_of(forcing_record now)

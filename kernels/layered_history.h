@@ -14,10 +14,11 @@ typedef struct layered_world {
     global const uint *sunlit; /* see lit.h */
     uint first;
     uint power_materials;
-    global const float *power; /* see lit.h */
-    uint lateral_columns;
-    global const float *lateral_w_m2; /* shape (2 steps, lateral_columns): mean over each half of
+    global const float *power;              /* see lit.h */
+    uint lateral_columns, received_columns; /* 0: none */
+    global const float *lateral_w_m2;  /* shape (2 steps, lateral_columns): mean over each half of
                                          the way to the next step */
+    global const float *received_w_m2; /* shape (steps, received_columns): longwave */
 } layered_world;
 
 static inline layered_body layered_body_of(global const layered_record *facets, uint first,
@@ -32,24 +33,36 @@ static inline layered_body layered_body_of(global const layered_record *facets, 
     return body;
 }
 
+/* Row `row` for each lane; `otherwise` where it has no column. */
+static inline lanes layered_column_at(global const float *rows, uint columns, const uint *column,
+                                      uint row, lanes otherwise)
+{
+    lanes out = otherwise;
+
+    for (uint i = 0; i < LANES_WIDTH && columns > 0; i++)
+        if (column[i] > 0) ((float *)&out)[i] = rows[(size_t)row * columns + column[i] - 1];
+    return out;
+}
+
 static inline thermal_load layered_load_at(layered_world w, const layered_body *body, uint step)
 {
     thermal_load load =
         thermal_load_of(&body->face, w.forcing[step], lit_at(w.sunlit, w.span, w.first, step));
 
     load.direct_w_m2 += power_at(w.power, w.power_materials, body->material, step);
+    if (w.received_columns > 0) {
+        const lanes usual_w_m2 = thermal_longwave_of(&body->face, w.forcing[step]);
+        const lanes received_w_m2 = layered_column_at(w.received_w_m2, w.received_columns,
+                                                      body->received_column, step, usual_w_m2);
+        load.steady_w_m2 += body->face.emissivity * (received_w_m2 - usual_w_m2);
+    }
     return load;
 }
 
 static inline lanes layered_lateral_at(layered_world w, const layered_body *body, uint row)
 {
-    lanes out = (lanes)0.0f;
-
-    for (uint i = 0; i < LANES_WIDTH && w.lateral_columns > 0; i++)
-        if (body->lateral_column[i] > 0)
-            ((float *)&out)[i] =
-                w.lateral_w_m2[(size_t)row * w.lateral_columns + body->lateral_column[i] - 1];
-    return out;
+    return layered_column_at(w.lateral_w_m2, w.lateral_columns, body->lateral_column, row,
+                             (lanes)0.0f);
 }
 
 /* Goes through the step that ends at `step`; returns the load after it. */

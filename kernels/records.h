@@ -53,11 +53,10 @@ typedef struct facet_record {
     float slope_rad;   /* 0 level and facing up, pi facing down */
     float azimuth_rad; /* of the normal, clockwise from north, 0 .. 2 pi */
     float thickness_m;
-    float power_w_m2;           /* self-generated */
-    float stated_temperature_k; /* 0: to be computed */
-    uint two_sided;             /* 1: both sides are seen and lit */
-    uint lateral_column;        /* see layered.h */
-    uint unused;
+    float power_w_m2;                     /* self-generated */
+    float stated_temperature_k;           /* 0: to be computed */
+    uint two_sided;                       /* 1: both sides are seen and lit */
+    uint lateral_column, received_column; /* see layered.h */
 } facet_record;
 RECORD_SIZE(facet_record, 48);
 
@@ -71,6 +70,13 @@ typedef struct conduction_record {
     uint unused;
 } conduction_record;
 RECORD_SIZE(conduction_record, 48);
+
+/* What a facet sees, for the longwave that reaches it; irradiation.cl. */
+typedef struct view_record {
+    uint first, count; /* of the facets that it sees */
+    float sky, below;  /* shares of the sky, and of what is neither sky nor facet */
+} view_record;
+RECORD_SIZE(view_record, 16);
 
 /* A material as thermal and radiometry see it. */
 typedef struct material_record {

@@ -37,6 +37,7 @@ RECORD_SIZE(thermal_span, 32);
 /* What does not change with time. */
 typedef struct thermal_body {
     lanes normal[3];
+    lanes sky;         /* its share of the view */
     lanes two_sided;   /* 0 or 1 */
     lanes slab;        /* 0 or 1 */
     lanes front, back; /* exposed shares */
@@ -76,6 +77,7 @@ static inline void thermal_set_body(thermal_body *body, int lane, facet_record f
         matter.exposed_area < 0.0f && facet.thickness_m > 0.0f && matter.conductivity_w_m_k > 0.0f;
 
     for (int i = 0; i < 3; i++) THERMAL_SET(body, normal[i], lane, facet.normal[i]);
+    THERMAL_SET(body, sky, lane, 0.5f * (1.0f + facet.normal[2]));
     THERMAL_SET(body, two_sided, lane, (float)facet.two_sided);
     THERMAL_SET(body, slab, lane, (float)slab);
     THERMAL_SET(body, front, lane, fmin(1.0f, twice));
@@ -89,26 +91,37 @@ static inline void thermal_set_body(thermal_body *body, int lane, facet_record f
                 slab ? matter.conductivity_w_m_k / facet.thickness_m : 0.0f);
 }
 
+static inline float thermal_black_w_m2(float temperature_k)
+{
+    const float square_k2 = temperature_k * temperature_k;
+
+    return STEFAN_BOLTZMANN * square_k2 * square_k2;
+}
+
+/* Longwave that reaches the front of a facet that knows nothing of the others. */
+static inline lanes thermal_longwave_of(const thermal_body *body, forcing_record now)
+{
+    return body->sky * now.sky_longwave_w_m2 +
+           (1.0f - body->sky) * thermal_black_w_m2(now.air_temperature_k);
+}
+
 /* lit: 1 where the sun reaches the facet, 0 in shadow. */
 static inline thermal_load thermal_load_of(const thermal_body *body, forcing_record now, lanes lit)
 {
     const lanes none = 0.0f;
-    const lanes sky = 0.5f * (1.0f + body->normal[2]), ground = 1.0f - sky;
     const lanes cosine =
         body->normal[0] * now.sun[0] + body->normal[1] * now.sun[1] + body->normal[2] * now.sun[2];
     const lanes facing = body->two_sided != none ? fabs(cosine) : fmax(cosine, none);
     const float level_w_m2 = now.direct_w_m2 * fmax(0.0f, now.sun[2]) + now.diffuse_w_m2;
-    const float square_k2 = now.air_temperature_k * now.air_temperature_k;
-    const float air_w_m2 = STEFAN_BOLTZMANN * square_k2 * square_k2;
-    const lanes sun_w_m2 =
-        sky * now.diffuse_w_m2 + ground * (THERMAL_GROUND_REFLECTANCE * level_w_m2);
-    const lanes longwave_w_m2 = sky * now.sky_longwave_w_m2 + ground * air_w_m2;
+    const lanes sun_w_m2 = body->sky * now.diffuse_w_m2 +
+                           (1.0f - body->sky) * (THERMAL_GROUND_REFLECTANCE * level_w_m2);
+    const lanes longwave_w_m2 = thermal_longwave_of(body, now);
     thermal_load load;
 
     load.direct_w_m2 = body->front * body->absorptance * lit * facing * now.direct_w_m2;
     load.steady_w_m2 = body->power_w_m2 + body->front * (body->absorptance * sun_w_m2 +
                                                          body->emissivity * longwave_w_m2);
-    load.back_w_m2 = body->back * body->emissivity * air_w_m2;
+    load.back_w_m2 = body->back * body->emissivity * thermal_black_w_m2(now.air_temperature_k);
     load.convection_w_m2_k = now.convection_w_m2_k;
     load.air_k = now.air_temperature_k;
     /* assumed: rain falls straight down. */

@@ -22,7 +22,8 @@ BVH_NODE = record("low[3][8] high[3][8] *child[8] *order[8]")
 BVH_BLOCK = record("vertex[3][3][8] *facet[8]")
 HIT = record("point[3] range_m *facet normal[3]")
 FACET = record("normal[3] *material slope_rad azimuth_rad thickness_m power_w_m2"
-               " stated_temperature_k *two_sided *lateral_column *unused")
+               " stated_temperature_k *two_sided *lateral_column *received_column")
+VIEW = record("*first *count sky below")
 CONDUCTION = record("*neighbour[4] link_w_k[4] stated_w_k stated_k area_m2 *unused")
 MATERIAL = record("density_kg_m3 specific_heat_j_kg_k conductivity_w_m_k solar_absorptance"
                   " thermal_emissivity exposed_area specular_share *emissivity_first"

@@ -26,7 +26,7 @@ def conduct(opencl):
         kernel(opencl.queue, (1,), None, span[0], np.uint32(1),
                buffer(np.array([0, PLACES], np.uint32)), buffer(facets), buffer(links),
                buffer(forcing), None if lit is None else buffer(lit), np.uint32(0), None,
-               work(PLACES * 4096), work(9 * 4 * PLACES), target)
+               np.uint32(0), None, work(PLACES * 4096), work(9 * 4 * PLACES), target)
         cl.enqueue_copy(opencl.queue, out, target)
         return out.astype(float)
 

@@ -18,7 +18,8 @@ LAYERED = np.dtype([
     ("absorptance", "f4"), ("emissivity", "f4"), ("power_w_m2", "f4"), ("two_sided", "u4"),
     ("back", "u4"), ("back_k", "f4"), ("resistance_day_s_m", "f4"), ("resistance_night_s_m", "f4"),
     ("film_limit_kg_m2", "f4"), ("stated_temperature_k", "f4"),
-    ("material", "u4"), ("lateral_column", "u4"), ("lateral_share", "f4", 8)])
+    ("material", "u4"), ("lateral_column", "u4"), ("lateral_share", "f4", 8),
+    ("sky_share", "f4"), ("received_column", "u4"), ("unused", "u4", 2)])
 
 
 def ladder(layers, ratio=1.5):
@@ -38,7 +39,7 @@ def ladder(layers, ratio=1.5):
 def facet(layers, ratio=1.5, **values):
     record = np.zeros(1, LAYERED)
     record["capacity_j_m2_k"], record["conductance_w_m2_k"] = ladder(layers, ratio)
-    record["normal"] = (0, 0, 1)
+    record["normal"], record["sky_share"] = (0, 0, 1), 1
     record["resistance_day_s_m"] = record["resistance_night_s_m"] = -1
     for name, value in values.items():
         record[name] = value
@@ -70,7 +71,7 @@ def layered(opencl):
                np.uint32(0 if power is None else power.shape[1]),
                None if power is None else cl.Buffer(
                    opencl.context, cl.mem_flags.COPY_HOST_PTR, hostbuf=power),
-               np.uint32(0), None, target)
+               np.uint32(0), None, np.uint32(0), None, target)
         cl.enqueue_copy(opencl.queue, out, target)
         return out.astype(float)
 
@@ -107,7 +108,7 @@ def test_nafems_t3_a_bar_follows_a_sine_at_its_end(opencl):
     source = f"""#include "layered.h"
     constant float capacity[8] = {{{values[0]}}}, conductance[9] = {{{values[1]}}};
     kernel void bar(global float *out) {{
-        layered_record r = {{.normal = {{0, 0, 1}}, .back = LAYERED_STATED, .back_k = 273.15f,
+        layered_record r = {{.normal = {{0, 0, 1}}, .sky_share = 1, .back = LAYERED_STATED, .back_k = 273.15f,
                             .resistance_day_s_m = -1, .resistance_night_s_m = -1}};
         for (int i = 0; i < 8; i++) r.capacity_j_m2_k[i] = capacity[i];
         for (int i = 0; i < 9; i++) r.conductance_w_m2_k[i] = conductance[i];

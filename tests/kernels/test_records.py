@@ -13,7 +13,7 @@ TWINS = {
     "background_record": records.BACKGROUND, "camera_record": records.CAMERA,
     "radiometry_record": records.RADIOMETRY, "incident_record": records.INCIDENT, "band_record": records.BAND,
     "detector_record": records.DETECTOR, "blur_record": records.BLUR, "air_record": records.AIR,
-    "conduction_record": records.CONDUCTION,
+    "conduction_record": records.CONDUCTION, "view_record": records.VIEW,
 }
 
 
