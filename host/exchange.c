@@ -19,8 +19,8 @@ typedef struct exchange {
     thermal *model;
     facet_record *facet; /* shape (facet_count) */
     size_t facet_count;
-    facet_light sun;
-    device_memory lit;
+    const facet_light *sun;
+    device_memory lit;               /* of all facets */
     device_memory sent_w_m2;         /* shape (steps, facet_count) */
     device_memory before_w_m2;       /* what was received before, shape (steps, columns) */
     device_memory view, seen, share; /* of the columns */
@@ -30,9 +30,9 @@ static thermal_span span_of(const exchange *x, size_t count)
 {
     return (thermal_span){.facet_count = (uint)count,
                           .row_count = (uint)x->model->step_count,
-                          .sunlit_words = x->sun.words,
+                          .sunlit_words = x->sun->words,
                           .weight = 1.0f,
-                          .sunlit_period = x->sun.slots,
+                          .sunlit_period = x->sun->slots,
                           .step_s = (float)x->model->step_s,
                           .step_count = (uint)x->model->step_count};
 }
@@ -52,17 +52,21 @@ out:
     return rc;
 }
 
-/* The sun on the facets of places. */
-static status upload_lit(const exchange *x, const conduction_map *map, device_memory *out)
+/* The sun on facets, as lit.h has it.
+ *   facet   shape (count): which ones; NULL: all */
+static status upload_lit(const exchange *x, const uint32_t *facet, size_t count, device_memory *out)
 {
     status rc = STATUS_OK;
-    uint32_t *row = malloc(map->count * x->sun.words * sizeof *row + 1);
+    const size_t words = x->sun->words;
+    uint32_t *row = NULL;
 
-    NEED(row, STATUS_MEMORY, "no memory for the sun on %zu facets", map->count);
-    for (size_t w = 0; w < x->sun.words; w++)
-        for (size_t i = 0; i < map->count; i++)
-            row[w * map->count + i] = x->sun.row[w * x->sun.count + map->facet[i]];
-    TRY(device_allocate(x->model->dev, out, map->count * x->sun.words * sizeof *row, row));
+    if (words == 0) return STATUS_OK;
+    row = malloc(count * words * sizeof *row);
+    NEED(row, STATUS_MEMORY, "no memory for the sun on %zu facets", count);
+    for (size_t i = 0; i < count; i++)
+        for (size_t w = 0; w < words; w++)
+            row[w * count + i] = x->sun->word[(facet ? facet[i] : i) * words + w];
+    TRY(device_allocate(x->model->dev, out, count * words * sizeof *row, row));
 out:
     free(row);
     return rc;
@@ -81,7 +85,7 @@ static status conduct_map(const exchange *x, const conduction_map *map, device_m
     TRY(device_allocate(t->dev, &first, (map->patch_count + 1) * sizeof *map->patch_first,
                         map->patch_first));
     TRY(device_allocate(t->dev, &links, n * sizeof *map->link, map->link));
-    if (x->sun.words > 0) TRY(upload_lit(x, map, &lit));
+    TRY(upload_lit(x, map->facet, n, &lit));
     TRY(device_allocate(t->dev, &groups, n * sizeof(conduction_group), NULL));
     TRY(device_allocate(t->dev, &rows, row * WORK_ROWS, NULL));
     TRY(device_allocate(t->dev, &t->lateral_w_m2, row * 2 * t->step_count, NULL));
@@ -153,16 +157,16 @@ out:
     return rc;
 }
 
-static status find_views(exchange *x, const facet_light_world *light)
+static status find_views(exchange *x, const ray_scene *rays)
 {
     status rc = STATUS_OK;
     const scene *s = x->s;
     shape_factor_grid *grid = NULL;
     view_factors *factors = NULL;
 
-    TRY(shape_factor_open(&grid, light->dev, SHAPE_FACTOR_COSINE, s->hemisphere_zenith_step_deg,
+    TRY(shape_factor_open(&grid, x->model->dev, SHAPE_FACTOR_COSINE, s->hemisphere_zenith_step_deg,
                           s->hemisphere_azimuth_step_deg));
-    TRY(view_factor_trace(&factors, light->rays, grid, s->shape, x->facet_count));
+    TRY(view_factor_trace(&factors, rays, grid, s->shape, x->facet_count));
     TRY(keep_views(x, factors));
 out:
     view_factor_free(factors);
@@ -242,23 +246,20 @@ static void release(exchange *x)
     device_release(x->view);
     device_release(x->sent_w_m2);
     device_release(x->lit);
-    facet_light_free(&x->sun);
 }
 
-status exchange_run(const scene *s, thermal *model, const facet_light_world *light,
+status exchange_run(const scene *s, thermal *model, const ray_scene *rays, const facet_light *sun,
                     facet_record *facet, size_t facet_count)
 {
     status rc = STATUS_OK;
-    exchange x = {.s = s, .model = model, .facet = facet, .facet_count = facet_count};
+    exchange x = {.s = s, .model = model, .facet = facet, .facet_count = facet_count, .sun = sun};
 
-    if (!s->thesis) TRY(facet_light_trace(&x.sun, light, facet_count));
-    if (x.sun.words > 0)
-        TRY(device_allocate(light->dev, &x.lit, facet_count * x.sun.words * sizeof *x.sun.row,
-                            x.sun.row));
-    if (s->facet_longwave) TRY(find_views(&x, light));
-    TRY(send_and_receive(&x));
+    if (s->facet_longwave) {
+        TRY(find_views(&x, rays));
+        TRY(upload_lit(&x, NULL, facet_count, &x.lit));
+        TRY(send_and_receive(&x));
+    }
     if (s->lateral_conduction) TRY(conduct(&x));
-    if (model->received_columns > 0) TRY(pass(&x, false));
 out:
     release(&x);
     return rc;

@@ -16,7 +16,7 @@ static uint32_t share_of(const uint32_t *words, const facet_light *light, uint32
 
 static void set_share(facet_light *light, size_t facet, uint32_t slot, uint32_t share)
 {
-    light->row[(light->bit_words + slot / 4) * light->count + facet] |= share << (slot % 4 * 8);
+    light->word[facet * light->words + light->bit_words + slot / 4] |= share << (slot % 4 * 8);
 }
 
 /* Sets the mean of a facet's points. */
@@ -65,8 +65,8 @@ status facet_light_trace(facet_light *out, const facet_light_world *world, size_
     facet_light light = {.bit_words = (slots + 31) / 32, .slots = slots, .count = facet_count};
 
     light.words = light.bit_words + (slots + 3) / 4;
-    light.row = calloc(facet_count * light.words + 1, sizeof *light.row);
-    NEED(light.row, STATUS_MEMORY, "no memory for the sun on %zu facets", facet_count);
+    light.word = calloc(facet_count * light.words + 1, sizeof *light.word);
+    NEED(light.word, STATUS_MEMORY, "no memory for the sun on %zu facets", facet_count);
     for (uint32_t first = 0; first < real; first += FACETS_AT_ONCE) {
         const uint32_t left = real - first;
         TRY(trace_some(&light, world, first, left < FACETS_AT_ONCE ? left : FACETS_AT_ONCE));
@@ -74,7 +74,7 @@ status facet_light_trace(facet_light *out, const facet_light_world *world, size_
     for (size_t i = real; i < facet_count; i++)
         for (uint32_t slot = 0; slot < slots; slot++) set_share(&light, i, slot, 255);
     *out = light;
-    light.row = NULL;
+    light.word = NULL;
 out:
     facet_light_free(&light);
     return rc;
@@ -82,6 +82,6 @@ out:
 
 void facet_light_free(facet_light *light)
 {
-    free(light->row);
+    free(light->word);
     *light = (facet_light){0};
 }

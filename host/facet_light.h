@@ -6,11 +6,11 @@
 #include "geometry.h"
 #include "sun_history.h"
 
-/* Shares as lit.h reads them: a byte for every slot, behind the words of the bits. */
+/* Shares as lit.h reads them but for the order: a byte for every slot, behind the words of the bits. */
 typedef struct facet_light {
     uint32_t bit_words, words, slots;
     size_t count;
-    uint32_t *row; /* shape (words, count); NULL and no words: always lit */
+    uint32_t *word; /* shape (count, words); NULL and no words: always lit */
 } facet_light;
 
 /* What the shares are traced with. */

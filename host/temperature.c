@@ -174,26 +174,52 @@ out:
     return rc;
 }
 
-static status exchange_heat(temperature *t, const scene *s, const ray_scene *rays)
+/* Facets that exchange heat: in thesis mode in the sun whenever it shines, in exact mode in the mean
+ * share of it over their points. */
+static status warm_together(const temperature *t, const scene *s, const ray_scene *rays,
+                            float *facet_k)
 {
-    const facet_light_world light = {t->dev, s->shape, rays, t->sun, t->facets};
+    status rc = STATUS_OK;
+    const facet_light_world world = {t->dev, s->shape, rays, t->sun, t->facets};
+    facet_light sun = {0};
 
-    if (s->thermal != SCENE_THERMAL_LAYERED) return STATUS_OK;
-    return exchange_run(s, t->model, &light, t->facet, t->facet_count);
+    if (!s->thesis) TRY(facet_light_trace(&sun, &world, t->facet_count));
+    TRY(exchange_run(s, t->model, rays, &sun, t->facet, t->facet_count));
+    const thermal_subject all = {.facet = t->facet,
+                                 .count = t->facet_count,
+                                 .lit = sun.word,
+                                 .word_count = sun.words,
+                                 .slot_count = sun.slots};
+    TRY(thermal_at_time(t->model, &all, facet_k));
+out:
+    facet_light_free(&sun);
+    return rc;
+}
+
+/* Facets that know nothing of each other: in exact mode the mean temperature of their points. */
+static status warm_alone(const temperature *t, const scene *s, const ray_scene *rays,
+                         float *facet_k)
+{
+    status rc = STATUS_OK;
+    const thermal_subject all = {.facet = t->facet, .count = t->facet_count};
+
+    TRY(thermal_at_time(t->model, &all, facet_k));
+    if (!s->thesis) TRY(warm_area(t, s->shape, rays, facet_k));
+out:
+    return rc;
 }
 
 static status warm_facets(temperature *t, const scene *s, const ray_scene *rays)
 {
     status rc = STATUS_OK;
-    const thermal_subject all = {.facet = t->facet, .count = t->facet_count};
+    const bool exchanges =
+        s->thermal == SCENE_THERMAL_LAYERED && (s->lateral_conduction || s->facet_longwave);
     float *facet_k = malloc((t->facet_count + 1) * sizeof *facet_k);
 
     NEED(facet_k, STATUS_MEMORY, "no memory for %zu facets", t->facet_count);
     if (s->thermal != SCENE_THERMAL_FIXED && s->history) {
         TRY(open_model(t, s));
-        TRY(exchange_heat(t, s, rays));
-        TRY(thermal_at_time(t->model, &all, facet_k));
-        if (!s->thesis) TRY(warm_area(t, s->shape, rays, facet_k));
+        TRY(exchanges ? warm_together(t, s, rays, facet_k) : warm_alone(t, s, rays, facet_k));
     } else {
         for (size_t i = 0; i < t->facet_count; i++) facet_k[i] = t->facet[i].stated_temperature_k;
     }

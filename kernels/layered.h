@@ -118,19 +118,21 @@ static inline thermal_flux layered_latent(const layered_body *body, layered_air 
                                           lanes film_kg_m2)
 {
     const lanes none = 0.0f, one = 1.0f;
+    const lanes stated = air.is_day > 0.0f ? body->day_s_m : body->night_s_m;
+    const lanes surface_s_m = film_kg_m2 > none ? none : stated;
+    thermal_flux latent = {none, none};
+
+    if (!lanes_any(surface_s_m >= none)) return latent;
     const lanes celsius = face_k - ZERO_CELSIUS_K, reach = celsius + 243.12f;
     const lanes vapour_pa = 611.2f * exp(17.62f * celsius / reach);
     const lanes rest_pa = air.pressure_pa - 0.378f * vapour_pa;
     const lanes humidity = 0.622f * vapour_pa / rest_pa;
     const lanes slope = humidity * (17.62f * 243.12f) / (reach * reach) * air.pressure_pa / rest_pa;
-    const lanes stated = air.is_day > 0.0f ? body->day_s_m : body->night_s_m;
-    const lanes surface_s_m = film_kg_m2 > none ? none : stated;
     const lanes evaporates = surface_s_m < none ? none : one;
     /* ra = rho cp / h, in s/m */
     const float air_s_m = air.density_kg_m3 * 1005.0f / fmax(air.convection_w_m2_k, 1e-3f);
     const lanes vaporisation = 2.501e6f - 2361.0f * celsius; /* J/kg */
     const lanes share = evaporates * air.density_kg_m3 * vaporisation / (air_s_m + surface_s_m);
-    thermal_flux latent;
 
     latent.w_m2 = share * (humidity - air.humidity);
     latent.w_m2_k = share * slope;
@@ -192,6 +194,8 @@ static inline void layered_step_film(layered_state *s, const layered_body *body,
                                      float step_s)
 {
     const lanes none = 0.0f;
+
+    if (!(air.rain_kg_m2_s > 0.0f) && !lanes_any(s->film_kg_m2 > none)) return;
     const lanes lost_w_m2 = front->latent.w_m2 + front->latent.w_m2_k * (s->front_k - old_front_k);
     const lanes vaporisation = 2.501e6f - 2361.0f * (old_front_k - ZERO_CELSIUS_K);
     const lanes film = s->film_kg_m2 +

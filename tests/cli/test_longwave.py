@@ -1,5 +1,4 @@
 """Longwave from facet to facet, thermal = "layered": plates that see each other."""
-import numpy as np
 import pytest
 from test_sheet import SITE, constant_weather, face, gdb
 
@@ -7,7 +6,7 @@ from test_sheet import SITE, constant_weather, face, gdb
 THIN = {"density_kg_m3": 1.0, "specific_heat_j_kg_k": 100.0, "conductivity_w_m_k": 10.0,
         "solar_absorptance": 0.0}
 LANGLEY_W_M2 = 11.622
-SIGMA = 5.670374419e-8
+
 
 
 def quad(low, high, z, up):

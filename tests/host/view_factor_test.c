@@ -4,7 +4,7 @@
 #include "bvh.h"
 #include "view_factor.h"
 
-enum { SIDE = 4, EACH = SIDE * SIDE }; /* facets of a unit square */
+enum { SIDE = 6, EACH = SIDE * SIDE }; /* facets of a unit square */
 
 /* Writes a unit square of SIDE x SIDE facets: corner + (i along + j across) / SIDE; its front looks
  * along the product of both. */
