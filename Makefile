@@ -251,7 +251,13 @@ $(BUILD)/bench/exact_rays/brute_force.o: CFLAGS += -O3
 # Mitsuba is for this comparison alone.
 MITSUBA := mitsuba==3.9.1 numpy
 
-.PHONY: bench-mitsuba
+.PHONY: bench-mitsuba departures
+
+## departures: how much exact mode's departures from the thesis matter at the airport, and a picture
+departures: deps all
+	$(PYTHON) bench/departures.py
+	build/radsig-view scenes/airport/scene.toml --size 480x360 --script docs/images/departures.txt \
+	    --offscreen build/preview.png >/dev/null
 
 ## bench-mitsuba: compare exact mode with Mitsuba 3 (pip fetches it once, into build/mitsuba)
 bench-mitsuba: deps all
