@@ -19,6 +19,13 @@ typedef struct bench_mode {
     double wall_s[2][ROUNDS_LIMIT], cpu_s[2][ROUNDS_LIMIT]; /* on one core, on two */
 } bench_mode;
 
+/* Rays per second of CPU time on one core over terrains, the smallest and the largest. */
+typedef struct bench_growth {
+    const char *class_name;
+    uint32_t facets[2];
+    double radsig[2], embree[2]; /* packets; the best robust mode */
+} bench_growth;
+
 typedef struct bench {
     bench_mesh *mesh;
     bench_embree *embree[2]; /* robust, plain */
@@ -30,6 +37,7 @@ typedef struct bench {
     int rounds, noisy, runs;
     FILE *csv;
     double log_best[2], log_prefilled[2]; /* sums over the cells, by wall and by CPU time */
+    bench_growth growth[BENCH_CLASSES];
     double worst;
     int cells;
 } bench;
@@ -170,6 +178,34 @@ out:
     return rc;
 }
 
+static void note_terrain(bench *b, const bench_rays *rays, double radsig, double embree)
+{
+    bench_growth *g = &b->growth[rays - b->rays];
+    const uint32_t facets = b->mesh->facet_count;
+
+    if (strncmp(b->mesh->name, "terrain-", 8)) return;
+    for (int i = 0; i < 2; i++) {
+        const bool is_beyond = i == 0 ? facets < g->facets[0] : facets > g->facets[1];
+        if (g->facets[i] && !is_beyond) continue;
+        g->class_name = rays->name;
+        g->facets[i] = facets;
+        g->radsig[i] = radsig;
+        g->embree[i] = embree;
+    }
+}
+
+static void print_growth(const bench *b)
+{
+    for (int c = 0; c < BENCH_CLASSES; c++) {
+        const bench_growth *g = &b->growth[c];
+        if (g->facets[0] == g->facets[1]) continue;
+        printf("terrain of %u to %u facets, %s: the cost per ray grows %.2f times, Embree's %.2f "
+               "times\n",
+               g->facets[0], g->facets[1], g->class_name, g->radsig[0] / g->radsig[1],
+               g->embree[0] / g->embree[1]);
+    }
+}
+
 /* Prints the rays per second of all modes, and adds the cell to the verdict. */
 static void report(bench *b, const bench_rays *rays)
 {
@@ -202,6 +238,7 @@ static void report(bench *b, const bench_rays *rays)
         if (by == 1) b->worst = fmin(b->worst, to_best);
     }
     b->cells++;
+    note_terrain(b, rays, rate[OPENCL_PACKETS][0][1], best[0][1]);
 }
 
 static status run(bench *b, int mesh_count, char **mesh)
@@ -225,6 +262,7 @@ static status run(bench *b, int mesh_count, char **mesh)
         "%.2f\n",
         exp(b->log_best[0] / b->cells), exp(b->log_best[1] / b->cells), b->worst,
         exp(b->log_prefilled[0] / b->cells), exp(b->log_prefilled[1] / b->cells));
+    print_growth(b);
     if (b->noisy > b->runs / 10)
         printf("%d of %d runs were kept from their cores by other processes: the machine was too "
                "noisy for a verdict by wall time\n",
