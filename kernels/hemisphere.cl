@@ -3,6 +3,7 @@
 #define LANES_WIDTH RAY_LANES
 #include "hemisphere_lanes.h"
 #include "hit_lanes.h"
+#include "ray_queue.h"
 
 /* Cells of a work-item. */
 #define CELLS (RAY_LANES == 16 ? 72 : 1)
@@ -24,26 +25,6 @@ typedef struct hemisphere_rays {
     float direction[CELLS][3][RAY_LANES];
     uint alive; /* a bit per point */
 } hemisphere_rays;
-
-/* Rays towards the sun that wait until a packet is full, and the words that they belong to. */
-typedef struct hemisphere_shadows {
-    ray_packet packet;
-    uint word[RAY_LANES];
-    uint count;
-} hemisphere_shadows;
-
-static inline void lanes_write(const lanes from, float *to)
-{
-    for (uint i = 0; i < RAY_LANES; i++) to[i] = ((const float *)&from)[i];
-}
-
-static inline lanes lanes_read(const float *from)
-{
-    lanes out = (lanes)0.0f;
-
-    for (uint i = 0; i < RAY_LANES; i++) LANES_SET(out, i, from[i]);
-    return out;
-}
 
 /* Makes the rays of points first .. first + RAY_LANES - 1 into `cell_count` cells. Lanes without a
  * point have the directions of the last that has one. */
@@ -144,22 +125,20 @@ static ray_packet take_some(const hemisphere_rays *rays, const world_record *wor
     return p;
 }
 
-/* Casts the rays that wait; the words of those that reach the sun say so. */
-static void cast_shadows(hemisphere_shadows *shadows, const hemisphere_scene *scene)
+/* Casts the rays towards the sun that wait; the words that mark those that reach it say so. */
+static void cast_shadows(ray_queue *shadows, const hemisphere_scene *scene)
 {
-    const uint reached =
-        shadows->packet.alive & ~ray_packet_any(scene->nodes, scene->blocks, &shadows->packet);
+    const uint reached = ray_queue_cast(shadows, scene->nodes, scene->blocks);
 
     for (uint i = 0; i < RAY_LANES; i++)
-        if (reached >> i & 1) scene->out_met[shadows->word[i]] |= HEMISPHERE_LIT;
-    ray_packet_clear(&shadows->packet, &scene->world);
-    shadows->count = 0;
+        if (reached >> i & 1) scene->out_met[shadows->mark[i]] |= HEMISPHERE_LIT;
 }
 
 /* Sees to it that the words of points met tell whether the sun reaches them.
- *   word   of each lane in out_met */
-static void look_for_sun(hemisphere_shadows *shadows, const hemisphere_scene *scene,
-                         const ray_packet *packet, const ray_packet_hit *met, const uint *word)
+ *   have   a bit per lane that met a facet; word: of each lane in out_met */
+static void look_for_sun(ray_queue *shadows, const hemisphere_scene *scene,
+                         const ray_packet *packet, const ray_packet_hit *met, const uint have,
+                         const uint *word)
 {
     const float *sun = scene->sun;
     lanes origin[3], direction[3];
@@ -170,42 +149,40 @@ static void look_for_sun(hemisphere_shadows *shadows, const hemisphere_scene *sc
     }
     const hit_lanes at = hit_lanes_of(scene->blocks, origin, direction, met);
     const lanes facing = (at.normal[0] * sun[0] + at.normal[1] * sun[1]) + at.normal[2] * sun[2];
-    for (uint i = 0; i < RAY_LANES; i++) {
-        if (met->facet[i] == RECORD_NONE || !(((const float *)&facing)[i] > 0)) continue;
+    for (uint lit = lanes_bits_of(facing > 0.0f) & have; lit; lit &= lit - 1) {
+        const uint i = 31 - clz(lit & -lit);
         float point[3], normal[3];
         for (int k = 0; k < 3; k++) {
             point[k] = ((const float *)&at.point[k])[i];
             normal[k] = ((const float *)&at.normal[k])[i];
         }
         const ray r = ray_leaving(&scene->world, point, normal, sun);
-        shadows->word[shadows->count] = word[i];
-        ray_packet_set(&shadows->packet, shadows->count++, &r);
-        if (shadows->count == RAY_LANES) cast_shadows(shadows, scene);
+        if (ray_queue_add(shadows, &r, word[i])) cast_shadows(shadows, scene);
     }
 }
 
-/* Casts a packet and writes its words.
+/* Casts a packet and writes the words of rays that met something.
  *   ray   the number of each lane's ray */
-static void cast_packet(hemisphere_shadows *shadows, const hemisphere_scene *scene,
-                        const ray_packet *packet, const ushort *ray)
+static void cast_packet(ray_queue *shadows, const hemisphere_scene *scene, const ray_packet *packet,
+                        const ushort *ray)
 {
     const world_record *world = &scene->world;
     const uint day = scene->sun[2] > 0;
     ray_packet_hit met;
-    uint word[RAY_LANES], met_any = 0;
+    uint word[RAY_LANES], have = 0;
 
     ray_packet_closest(scene->nodes, scene->blocks, packet, &met);
     for (uint i = 0; i < RAY_LANES; i++) {
-        if (!(packet->alive >> i & 1)) met.facet[i] = RECORD_NONE;
         if (!(packet->alive >> i & 1)) continue;
-        const uint ground = met.facet[i] == RECORD_NONE && world->ground_facet != RECORD_NONE &&
-                            -packet->direction[2][i] > RAY_LEVEL;
+        const uint is_ground = met.facet[i] == RECORD_NONE && world->ground_facet != RECORD_NONE &&
+                               -packet->direction[2][i] > RAY_LEVEL;
+        if (met.facet[i] == RECORD_NONE && !is_ground) continue;
         word[i] = ray[i] / RAY_LANES * scene->stride + ray[i] % RAY_LANES;
         scene->out_met[word[i]] =
-            ground ? world->ground_facet | (day ? HEMISPHERE_LIT : 0) : met.facet[i];
-        met_any |= met.facet[i] != RECORD_NONE;
+            is_ground ? world->ground_facet | (day ? HEMISPHERE_LIT : 0) : met.facet[i];
+        have |= (uint)!is_ground << i;
     }
-    if (day && met_any) look_for_sun(shadows, scene, packet, &met, word);
+    if (day && have) look_for_sun(shadows, scene, packet, &met, have, word);
 }
 
 /* Casts the rays of the hemisphere above points. Where neighbouring points have directions of their
@@ -229,7 +206,7 @@ kernel void hemisphere(const uint count, const uint cell_count, const float sun_
                                     .sun = {sun_x, sun_y, sun_z},
                                     .out_met = out_met + (size_t)first_cell * count + first,
                                     .stride = count};
-    hemisphere_shadows shadows = {.count = 0};
+    ray_queue shadows = ray_queue_of(&world);
     hemisphere_rays rays;
     ushort order[RAYS];
 
@@ -238,7 +215,6 @@ kernel void hemisphere(const uint count, const uint cell_count, const float sun_
             scene.out_met[c * (size_t)count + i] = RECORD_NONE;
     make_rays(&rays, &world, first, count, hit, cell + 4 * first_cell, cells);
     if (rays.alive == 0) return;
-    ray_packet_clear(&shadows.packet, &world);
     const uint sorted = order_rays(&rays, cells, order);
     for (uint at = 0; at < sorted; at += RAY_LANES) {
         const ray_packet packet =

@@ -52,9 +52,51 @@ static inline void lanes_store(lanes from, global float *to, uint first, uint co
 }
 
 #if LANES_WIDTH == 16
+
 #define lanes_of_bits(bits) convert_float16(bits)
+
+static inline lanes lanes_read(const float *from)
+{
+    return vload16(0, from);
+}
+
+static inline void lanes_write(lanes from, float *to)
+{
+    vstore16(from, 0, to);
+}
+
+/* A bit for every lane of a comparison. */
+static inline uint lanes_bits_of(lanes_mask mask)
+{
+    const int16 bit = {1 << 0, 1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
+                       1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
+    const int16 bits = mask & bit;
+    const int8 eight = bits.lo | bits.hi;
+    const int4 four = eight.lo | eight.hi;
+    const int2 two = four.lo | four.hi;
+
+    return (uint)(two.x | two.y);
+}
+
 #else
+
 #define lanes_of_bits(bits) ((float)(bits))
+
+static inline lanes lanes_read(const float *from)
+{
+    return *from;
+}
+
+static inline void lanes_write(lanes from, float *to)
+{
+    *to = from;
+}
+
+static inline uint lanes_bits_of(lanes_mask mask)
+{
+    return mask != 0;
+}
+
 #endif
 
 #endif
