@@ -4,20 +4,18 @@
 #define HOST_INCIDENT_H
 
 #include "bodies.h"
-#include "geometry.h"
 #include "shape_factor.h"
 
 typedef struct incident incident;
 
-/* Samples the hemisphere above the middle of every facet, which tells how much sky a facet sees that
- * is itself seen, and lays points of a quadrature over the table of the sky.
+/* Lays points of a quadrature over the table of the sky.
  *   tables       of the facets; the ground's stands behind the real ones
  *   lobe_rings   of the materials' diffuse lobes (lobe.h)
  *   frame        zenith and azimuth of the sky's table are read
  * Fails with STATUS_ARGUMENT where the table has more than INCIDENT_WEIGHTS / lobe_rings directions. What is
  * passed in must outlive it. */
 status incident_open(incident **out, const ray_scene *scene, const shape_factor_grid *grid,
-                     const shape_factor_tables *tables, uint32_t lobe_rings, const geometry *g,
+                     const shape_factor_tables *tables, uint32_t lobe_rings,
                      const radiometry_record *frame);
 void incident_free(incident *in);
 
@@ -26,7 +24,10 @@ typedef struct incident_pixels {
     radiometry_record frame;
     camera_record camera;
     shape_factor_points points;
-    device_memory background, background_lit;
+    device_memory background, background_lit; /* NULL: the surfaces are facets', taken as diffuse */
+    device_memory facet_background;           /* background_record, per facet, the ground's last */
+    device_memory light;                      /* see interreflection.h */
+    uint32_t light_length;
     device_memory spectra, emissivity;
     const bodies *bodies;     /* NULL: none */
     device_memory extinction; /* of bodies: see bodies_sample */

@@ -131,8 +131,14 @@ static status open_incident(render *r)
                                         r->shared.tables.materials};
 
     TRY(incident_open(&r->shared.around, r->shared.rays, r->shared.grid, &tables,
-                      scene_lobe_rings(r->shared.s), r->shared.s->shape, &r->shared.frame));
-    end_stage(r, "surroundings of facets");
+                      scene_lobe_rings(r->shared.s), &r->shared.frame));
+    const interreflection_scene from = {r->shared.around, r->shared.rays, r->shared.grid,
+                                        r->shared.s->shape, tables};
+    TRY(render_tables_take_blocks(&r->shared.tables, r->shared.dev, r->shared.s));
+    TRY(interreflection_open(&r->shared.lights, &from, r->shared.tables.reflectance,
+                             r->shared.s->depth, &r->shared.tables.blocks, r->shared.frame.sun));
+    TRY(interreflection_set_sun(r->shared.lights, &r->shared.frame));
+    end_stage(r, "light between facets");
 out:
     return rc;
 }
@@ -211,6 +217,7 @@ void render_free(render *r)
 {
     if (!r) return;
     free(r->planes);
+    interreflection_free(r->shared.lights);
     incident_free(r->shared.around);
     temperature_free(r->shared.warmth);
     render_tables_free(&r->shared.tables);

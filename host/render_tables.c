@@ -2,6 +2,7 @@
 
 #include "lobe.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 status render_tables_take_facets(render_tables *t, device *dev, const scene *s)
@@ -26,29 +27,74 @@ out:
     return rc;
 }
 
-/* The emissivity of all materials on the samples of the bands, and their diffuse lobes. */
-static status upload_emissivity(render_tables *t, device *dev, const scene *s)
+/* The emissivity of all materials on the samples of spectra, and their diffuse lobes: shape
+ * (scene_emissivity_rows, sample_count), to be freed. */
+static status sample_emissivity(float **out, const scene *s, const spectra *at)
 {
     status rc = STATUS_OK;
-    const size_t samples = t->bands->sample_count;
-    const size_t bytes = (size_t)scene_emissivity_rows(s) * samples * sizeof(float);
-    float *rows = malloc(bytes + 1);
+    const size_t samples = at->sample_count;
+    float *rows = malloc((size_t)scene_emissivity_rows(s) * samples * sizeof *rows + 1);
 
     NEED(rows, STATUS_MEMORY, "no memory for the emissivity of %u materials", s->material_count);
     for (uint32_t i = 0; i < s->material_count; i++) {
         const scene_material *m = &s->materials[i];
         float *first = rows + (size_t)m->record.emissivity_first * samples;
         if (m->table)
-            spectra_sample_emissivity(t->bands, m->table, first);
+            spectra_sample_emissivity(at, m->table, first);
         else
             for (size_t k = 0; k < samples; k++) first[k] = (float)m->grey_emissivity;
         if (m->record.lobe_first != RECORD_NONE)
-            lobe_fill(first, t->bands->sample_count, scene_lobe_rings(s),
+            lobe_fill(first, at->sample_count, scene_lobe_rings(s),
                       rows + (size_t)m->record.lobe_first * samples);
     }
-    TRY(device_allocate(dev, &t->emissivity_rows, bytes, rows));
+    *out = rows;
+out:
+    return rc;
+}
+
+static status upload_emissivity(device_memory *out, device *dev, const scene *s, const float *rows,
+                                const spectra *at)
+{
+    return device_allocate(
+        dev, out, (size_t)scene_emissivity_rows(s) * at->sample_count * sizeof *rows, rows);
+}
+
+/* The most that a material reflects into the hemisphere at any wavelength. */
+static float most_reflected(const material_record *m, const float *rows, const spectra *at)
+{
+    float most = 0.0f;
+
+    for (size_t k = 0; k < at->sample_count; k++) {
+        const float over = m->lobe_first == RECORD_NONE
+                               ? 0.0f
+                               : rows[(size_t)m->lobe_first * at->sample_count + k];
+        const float even = 1.0f - rows[(size_t)m->emissivity_first * at->sample_count + k];
+        most = fmaxf(most, over > 0.0f ? 1.0f / over : even);
+    }
+    return most;
+}
+
+status render_tables_take_blocks(render_tables *t, device *dev, const scene *s)
+{
+    status rc = STATUS_OK;
+    spectra *blocks = NULL;
+    float *rows = NULL;
+
+    TRY(spectra_coarsen(&blocks, t->bands));
+    TRY(sample_emissivity(&rows, s, blocks));
+    t->blocks.sample_count = blocks->sample_count;
+    TRY(device_allocate(dev, &t->blocks.rows,
+                        (size_t)blocks->row_count * blocks->sample_count * sizeof(float),
+                        blocks->rows));
+    TRY(upload_emissivity(&t->blocks.emissivity, dev, s, rows, blocks));
+    t->reflectance = calloc(t->facet_count + 1, sizeof *t->reflectance);
+    NEED(t->reflectance, STATUS_MEMORY, "no memory for %zu facets", t->facet_count);
+    for (size_t i = 0; i < t->facet_count; i++)
+        t->reflectance[i] =
+            most_reflected(&s->materials[t->facet[i].material].record, rows, blocks);
 out:
     free(rows);
+    spectra_free(blocks);
     return rc;
 }
 
@@ -56,6 +102,7 @@ status render_tables_take_spectra(render_tables *t, device *dev, const scene *s,
                                   const bodies *through)
 {
     status rc = STATUS_OK;
+    float *emissivity_rows = NULL;
 
     TRY(spectra_build(&t->bands, s->bands, s->band_count, s->air, scene_sums_points(s), s->thesis));
     TRY(device_allocate(dev, &t->spectrum_rows,
@@ -65,7 +112,8 @@ status render_tables_take_spectra(render_tables *t, device *dev, const scene *s,
                         t->bands->bands));
     TRY(device_allocate(dev, &t->ln_radiance,
                         (size_t)s->band_count * BAND_TEMPERATURES * sizeof(float), NULL));
-    TRY(upload_emissivity(t, dev, s));
+    TRY(sample_emissivity(&emissivity_rows, s, t->bands));
+    TRY(upload_emissivity(&t->emissivity_rows, dev, s, emissivity_rows, t->bands));
     if (through)
         TRY(bodies_sample(through, t->bands->wavenumber_cm1, t->bands->sample_count,
                           &t->extinction_rows));
@@ -73,11 +121,15 @@ status render_tables_take_spectra(render_tables *t, device *dev, const scene *s,
                    ARG(t->bands->sample_count), ARG(t->spectrum_rows), ARG(t->band_records),
                    ARG(t->ln_radiance)));
 out:
+    free(emissivity_rows);
     return rc;
 }
 
 void render_tables_free(render_tables *t)
 {
+    free(t->reflectance);
+    device_release(t->blocks.emissivity);
+    device_release(t->blocks.rows);
     device_release(t->ln_radiance);
     device_release(t->band_records);
     device_release(t->extinction_rows);

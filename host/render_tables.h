@@ -4,6 +4,7 @@
 
 #include "bodies.h"
 #include "device.h"
+#include "interreflection.h"
 #include "scene.h"
 #include "spectra.h"
 
@@ -14,6 +15,9 @@ typedef struct render_tables {
     device_memory facets, facet_ids, materials;
     spectra *bands;
     device_memory spectrum_rows, emissivity_rows, extinction_rows, band_records, ln_radiance;
+    /* Exact mode: the same over blocks of samples, as interreflection.h takes them. */
+    interreflection_spectra blocks;
+    float *reflectance; /* shape (facet_count): the most at any wavelength */
 } render_tables;
 
 /* Takes the facets, the ground's last, and the materials to the device. */
@@ -23,6 +27,9 @@ status render_tables_take_facets(render_tables *t, device *dev, const scene *s);
  *   through   transmissive bodies; NULL: none */
 status render_tables_take_spectra(render_tables *t, device *dev, const scene *s,
                                   const bodies *through);
+
+/* Samples blocks and reflectance; after the facets and the spectra. */
+status render_tables_take_blocks(render_tables *t, device *dev, const scene *s);
 
 /* Releases what the tables hold, not the record. */
 void render_tables_free(render_tables *t);

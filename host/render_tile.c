@@ -148,12 +148,16 @@ static status colour(const render_tile_memory *t, const render_shared *r, bool w
                    ARG(t->temperature_k), ARG(t->points.hit), ARG(t->background), ARG(direct),
                    ARG(behind), ARG(t->truth_planes)));
     if (has_incident(r)) {
+        TRY(interreflection_set_sun(r->lights, &r->frame));
         const incident_pixels pixels = {
             .frame = frame,
             .camera = r->camera,
             .points = t->points,
             .background = t->background,
             .background_lit = t->background_lit,
+            .facet_background = interreflection_background(r->lights),
+            .light = interreflection_rows(r->lights),
+            .light_length = r->tables.blocks.sample_count,
             .spectra = r->tables.spectrum_rows,
             .emissivity = r->tables.emissivity_rows,
             .bodies = r->bodies,

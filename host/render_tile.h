@@ -18,7 +18,8 @@ typedef struct render_shared {
     bool is_coarse;
     temperature *warmth;
     render_tables tables;
-    incident *around; /* NULL: thesis mode */
+    incident *around;        /* NULL: thesis mode */
+    interreflection *lights; /* the same */
     radiometry_record frame;
     air_record air;
     camera_record camera;

@@ -82,6 +82,8 @@ typedef struct scene {
     scene_thermal thermal;
     /* With thermal layered heat passes from facet to facet: along a material, by longwave. */
     bool lateral_conduction, facet_longwave;
+    uint32_t
+        depth; /* facets that light meets behind a pixel's: interreflection.h; 0: as it takes */
     double hemisphere_zenith_step_deg, hemisphere_azimuth_step_deg;
     size_t input_count;
     scene_input *inputs;

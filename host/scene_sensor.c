@@ -278,6 +278,7 @@ void scene_read_render(scene_reader *reader)
     scene *s = reader->s;
     scene_table t = scene_table_open(reader, toml_node_get(reader->root, "render"), "render");
     int mode = 0, thermal = SCENE_THERMAL_THERM, radiance = 0;
+    double depth = 0.0;
     const toml_node *step = scene_table_node(&t, "hemisphere_step_deg");
 
     scene_table_word(&t, "mode", modes, 2, &mode);
@@ -292,6 +293,7 @@ void scene_read_render(scene_reader *reader)
     s->hemisphere_azimuth_step_deg = 30.0;
     for (uint32_t i = 0; i < s->band_count; i++) s->bands[i].is_mean = radiance == 1;
     if (step) read_hemisphere(reader, step);
+    if (scene_table_whole(&t, "depth", 1.0, 1000.0, &depth)) s->depth = (uint32_t)depth;
     read_samples(&t);
     scene_table_close(&t);
 }

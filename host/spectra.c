@@ -7,7 +7,7 @@
 
 #define SMALLEST_TRANSMISSION 1e-30 /* has a logarithm, and is none */
 
-enum { PAD = 16 };
+enum { PAD = SPECTRA_BLOCK };
 
 static uint32_t padded(int count)
 {
@@ -184,6 +184,64 @@ status spectra_build(spectra **out, const band *bands, uint32_t band_count, cons
 out:
     free_samples(samples, band_count);
     spectra_free(s);
+    return rc;
+}
+
+/* The mean of one block of a row; of samples without weight, the plain one. */
+static double block_mean(const spectra *s, const float *from, uint32_t block)
+{
+    double sum = 0.0, weights = 0.0, plain = 0.0;
+
+    for (uint32_t i = block * SPECTRA_BLOCK; i < (block + 1) * SPECTRA_BLOCK; i++) {
+        const double weight = (double)s->rows[SPECTRA_WEIGHT * s->sample_count + i];
+        sum += weight * (double)from[i];
+        weights += weight;
+        plain += (double)from[i] / SPECTRA_BLOCK;
+    }
+    return weights > 0.0 ? sum / weights : plain;
+}
+
+/* These means of rows.
+ *   rows   shape (row_count, s->sample_count); out: (row_count, coarse->sample_count) */
+static void average(const spectra *s, const spectra *coarse, const float *rows, size_t row_count,
+                    float *out)
+{
+    const uint32_t blocks = s->sample_count / SPECTRA_BLOCK;
+
+    for (size_t r = 0; r < row_count; r++)
+        for (uint32_t b = 0; b < coarse->sample_count; b++)
+            out[r * coarse->sample_count + b] =
+                (float)block_mean(s, rows + r * s->sample_count, b < blocks ? b : blocks - 1);
+}
+
+status spectra_coarsen(spectra **out, const spectra *s)
+{
+    status rc = STATUS_OK;
+    spectra *coarse = calloc(1, sizeof *coarse);
+    float *wavelength_um = malloc(s->sample_count * sizeof *wavelength_um);
+
+    NEED(coarse && wavelength_um, STATUS_MEMORY, "no memory for coarse spectra");
+    coarse->sample_count = padded((int)(s->sample_count / SPECTRA_BLOCK));
+    coarse->row_count = s->row_count;
+    coarse->wavenumber_cm1 = calloc(coarse->sample_count, sizeof(double));
+    coarse->rows = calloc((size_t)s->row_count * coarse->sample_count, sizeof(float));
+    NEED(coarse->wavenumber_cm1 && coarse->rows, STATUS_MEMORY, "no memory for coarse spectra");
+    average(s, coarse, s->rows, s->row_count, coarse->rows);
+    for (uint32_t i = 0; i < s->sample_count; i++)
+        wavelength_um[i] = (float)(1e4 / s->wavenumber_cm1[i]);
+    average(s, coarse, wavelength_um, 1, row(coarse, SPECTRA_PLANCK_FIRST));
+    for (uint32_t b = 0; b < coarse->sample_count; b++) {
+        const double um = (double)row(coarse, SPECTRA_PLANCK_FIRST)[b];
+        const planck_terms planck = planck_at(um, false);
+        coarse->wavenumber_cm1[b] = 1e4 / um;
+        row(coarse, SPECTRA_PLANCK_FIRST)[b] = (float)planck.first;
+        row(coarse, SPECTRA_PLANCK_SECOND)[b] = (float)planck.second;
+    }
+    *out = coarse;
+    coarse = NULL;
+out:
+    free(wavelength_um);
+    spectra_free(coarse);
     return rc;
 }
 

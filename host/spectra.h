@@ -25,6 +25,12 @@ status spectra_build(spectra **out, const band *bands, uint32_t band_count, cons
                      bool by_points, bool thesis);
 void spectra_free(spectra *s);
 
+#define SPECTRA_BLOCK 16
+
+/* Takes means over blocks of SPECTRA_BLOCK samples, weighted by the response, instead of samples;
+ * Planck's law is that of the blocks' mean wavelengths. There are no bands in it. */
+status spectra_coarsen(spectra **out, const spectra *s);
+
 /* Tells where in the rows the paths from several altitudes and along the ground stand.
  *   origin_z_m   the geometry's origin above z 0, which is where the database's levels begin
  * Whether the sensor looks along the ground is left open. */

@@ -36,9 +36,9 @@ static void write_sky(const lanes *weights, radiometry_record frame, const incid
 
 /* Adds what `count` facets send to every sample of a pixel.
  *   lobe, ring   of the pixel's surface, and where the facets stand in it */
-static void add_facets(const incident_facet *facets, uint count, radiometry_record frame,
-                       global const float *spectra, global const float *emissivity, uint lobe,
-                       uint ring, global float *out)
+static void add_facets(const incident_facet *facets, uint count, around from,
+                       radiometry_record frame, global const float *spectra,
+                       global const float *emissivity, uint lobe, uint ring, global float *out)
 {
     const uint row = frame.sample_count;
 
@@ -50,9 +50,10 @@ static void add_facets(const incident_facet *facets, uint count, radiometry_reco
         spectrum sum = (spectrum)0.0f;
         for (uint i = 0; i < count; i++)
             sum += facets[i].weight *
-                   incident_radiance(
-                       &facets[i], lookup_spectrum(emissivity, row, facets[i].emissivity, block),
-                       planck_radiance(first, second, facets[i].temperature_k), sun, sky);
+                   incident_radiance(&facets[i],
+                                     lookup_spectrum(emissivity, row, facets[i].emissivity, block),
+                                     planck_radiance(first, second, facets[i].temperature_k), sun,
+                                     sky, light_of(from, facets[i].facet, block));
         sum = spectrum_load(out, block) + sum * lobe_of_ring(emissivity, row, lobe, ring, block);
         spectrum_store(sum, out, block);
     }
@@ -112,8 +113,8 @@ static void add_cells(const incident_group *g, around from, radiometry_record fr
         for (uint c = first; c < end; c++) see_cell(&round, g, from, frame, cells, c);
         for (uint i = 0; i < LANES_WIDTH; i++)
             if (round.count[i] > 0)
-                add_facets(round.seen[i], round.count[i], frame, spectra, emissivity, g->lobe[i],
-                           ring, out + 2u * i * frame.sample_count);
+                add_facets(round.seen[i], round.count[i], from, frame, spectra, emissivity,
+                           g->lobe[i], ring, out + 2u * i * frame.sample_count);
     }
 }
 
@@ -143,10 +144,13 @@ static incident_group take_group(uint first, radiometry_record frame, around fro
         g.kind[i] = INTERACTION_MISSED;
         g.lobe[i] = RECORD_NONE;
         if (i >= g.lane_count || hit[first + i].facet == RECORD_NONE) continue;
-        const background_record mirrored = background[first + i];
         const uint material = from.facets[hit[first + i].facet].material;
-        g.kind[i] = pixel_interaction(from.materials[material], mirrored);
-        g.facet[i] = mirrored.facet;
+        g.kind[i] = INTERACTION_DIFFUSE;
+        if (!from.how.is_of_facets) {
+            const background_record mirrored = background[first + i];
+            g.kind[i] = pixel_interaction(from.materials[material], mirrored);
+            g.facet[i] = mirrored.facet;
+        }
         for (int k = 0; k < 3; k++) LANES_SET(normal[k], i, hit[first + i].normal[k]);
         if (g.kind[i] != INTERACTION_DIFFUSE) continue;
         g.diffuse |= 1u << i;
@@ -172,27 +176,28 @@ static void reflect_ray(const incident_group *g, uint lane, radiometry_record fr
 
 /* Radiance that reaches every pixel's surface, weighted for its reflection: each ray of the
  * hemisphere brings the facet that it met (its own temperature, emissivity at the ray's angle, sun
- * and share of the sky) or the sky of its direction; a mirror has one ray. Exact counterpart of the
+ * and what it sees itself) or the sky of its direction; a mirror has one ray. Exact counterpart of the
  * background in eq. 2.4-1 and 2.4-2.
  * Launch: (frame.pixel_count / LANES_WIDTH, rounded up).
  * cell: (how.cell_count, 4), met: (how.cell_count, pixel_count), see hemisphere.cl
  * dome: (how.dome_count, 8), see sky_weights.h
  * facets, temperature_k, facet_background: per facet, the ground's behind the real ones
- * hit, background, background_lit: per pixel; the last two are read for mirrors
+ * light: see surroundings.h
+ * hit, background, background_lit: per pixel; the last two are read for mirrors, not of facets
  * spectra, emissivity: as radiometry.cl
  * out: (pixel_count, 2, sample_count), W m-2 sr-1 um-1: of the sky, and of facets and ground */
 kernel void incident(const radiometry_record frame, const camera_record camera,
                      const incident_record how, global const float *cell, global const float *dome,
                      global const facet_record *facets, global const material_record *materials,
                      global const float *temperature_k,
-                     global const background_record *facet_background, global const hit_record *hit,
-                     global const background_record *background, global const float *background_lit,
-                     global const uint *met, global const float *spectra,
-                     global const float *emissivity, global float *out)
+                     global const background_record *facet_background, global const float *light,
+                     global const hit_record *hit, global const background_record *background,
+                     global const float *background_lit, global const uint *met,
+                     global const float *spectra, global const float *emissivity, global float *out)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= frame.pixel_count) return;
-    const around from = {facets, materials, temperature_k, facet_background};
+    const around from = {facets, materials, temperature_k, facet_background, light, how};
     const incident_cells cells = {how.cell_count, how.ring_count, cell, met};
     const incident_group g = take_group(first, frame, from, cells, hit, background);
     const uint row = frame.sample_count;
@@ -214,7 +219,7 @@ kernel void incident(const radiometry_record frame, const camera_record camera,
         reflect_ray(&g, i, frame, camera, ray);
         const incident_facet seen =
             see_facet(from, frame, g.facet[i], 1.0f, background_lit[first + i], ray);
-        add_facets(&seen, 1u, frame, spectra, emissivity, RECORD_NONE, 0u,
+        add_facets(&seen, 1u, from, frame, spectra, emissivity, RECORD_NONE, 0u,
                    from_facets + i * 2u * row);
     }
     if (g.diffuse) add_cells(&g, from, frame, cells, spectra, emissivity, from_facets);

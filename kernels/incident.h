@@ -13,17 +13,27 @@ typedef struct incident_facet {
     float sun;          /* lit x cosine of the sun's angle */
     float shape_factor; /* the facet's own */
     lookup emissivity;  /* at the ray's angle */
+    uint facet;
 } incident_facet;
 
+/* What a facet gets besides its share of the sky, see interreflection.cl. */
+typedef struct incident_light {
+    spectrum lobe;  /* of the sun: (1 - e_S) / (1 - e_hemi) */
+    spectrum extra; /* radiance beyond the closure below */
+} incident_light;
+
 /* What such a facet radiates: its emission, the sun, its own share of the sky, and what else it
- * sees taken as black at its temperature, so that an enclosure of one temperature is black.
+ * sees taken as black at its temperature, so that an enclosure of one temperature is black; and what
+ * light between facets adds to that.
  *   sun   E_S tau1; sky   integrated over the hemisphere */
 static inline spectrum incident_radiance(const incident_facet *f, spectrum emissivity,
-                                         spectrum black_body, spectrum sun, spectrum sky)
+                                         spectrum black_body, spectrum sun, spectrum sky,
+                                         incident_light light)
 {
     return background_radiance(emissivity, black_body,
-                               sun_on_surface(sun, 1.0f, f->sun) +
-                                   radiance_from_above(f->shape_factor, sky, black_body));
+                               sun_on_surface(sun, 1.0f, f->sun) * light.lobe +
+                                   radiance_from_above(f->shape_factor, sky, black_body) +
+                                   light.extra);
 }
 
 /* Adds a direction of the sky to the weights of the table's directions: bilinear.

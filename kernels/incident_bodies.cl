@@ -70,8 +70,8 @@ typedef struct body_lobe {
 } body_lobe;
 
 /* Adds what bodies change of one ray to every sample. */
-static void add_change(const body_ray *r, const body_lobe *lobe, radiometry_record frame,
-                       body_spectra tables, global float *out)
+static void add_change(const body_ray *r, const body_lobe *lobe, around from,
+                       radiometry_record frame, body_spectra tables, global float *out)
 {
     const uint row = frame.sample_count;
     global const float *sky = tables.rows + (size_t)(SPECTRA_PATHS + 2u * frame.path_count) * row;
@@ -88,8 +88,9 @@ static void add_change(const body_ray *r, const body_lobe *lobe, radiometry_reco
             const spectrum e = lookup_spectrum(tables.emissivity, row, r->seen.emissivity, block);
             const spectrum black = planck_radiance(first, second, r->seen.temperature_k);
             const spectrum left = sun * transmission_along(tables.extinction, row, &r->sun, block);
-            before = incident_radiance(&r->seen, e, black, sun, diffuse);
-            after = incident_radiance(&r->seen, e, black, left, diffuse);
+            const incident_light light = light_of(from, r->facet, block);
+            before = incident_radiance(&r->seen, e, black, sun, diffuse, light);
+            after = incident_radiance(&r->seen, e, black, left, diffuse, light);
         }
         after =
             cloud_seen(after, tables.rows, tables.extinction, frame, &r->way, r->is_down, block);
@@ -113,16 +114,17 @@ kernel void incident_bodies(
     global const bvh_block *body_blocks, global const uint *medium, global const float *level,
     global const facet_record *facets, global const material_record *materials,
     global const float *temperature_k, global const background_record *facet_background,
-    global const hit_record *hit, global const background_record *background,
-    global const float *background_lit, global const uint *met, global const float *spectra,
-    global const float *emissivity, global const float *extinction, global float *out)
+    global const float *light, global const hit_record *hit,
+    global const background_record *background, global const float *background_lit,
+    global const uint *met, global const float *spectra, global const float *emissivity,
+    global const float *extinction, global float *out)
 {
     const uint pixel = get_global_id(0);
     if (pixel >= frame.pixel_count) return;
     const hit_record at = hit[pixel];
     if (at.facet == RECORD_NONE) return;
 
-    const around from = {facets, materials, temperature_k, facet_background};
+    const around from = {facets, materials, temperature_k, facet_background, light, how};
     const both_trees trees = {&world,     nodes,       blocks, &bodies,
                               body_nodes, body_blocks, medium, level};
     const body_spectra tables = {spectra, emissivity, extinction};
@@ -151,7 +153,7 @@ kernel void incident_bodies(
         }
         const body_ray r = look(&trees, from, frame, &at, direction, weight, lit);
         if (r.way.length_m[0] > 0.0f || r.sun.length_m[0] > 0.0f)
-            add_change(&r, &lobe, frame, tables,
+            add_change(&r, &lobe, from, frame, tables,
                        r.facet == RECORD_NONE ? from_sky : from_sky + frame.sample_count);
     }
 }

@@ -201,12 +201,16 @@ RECORD_SIZE(air_record, 192);
 
 /* How radiance that reaches surfaces is summed up, see incident.cl. */
 typedef struct incident_record {
-    uint cell_count; /* of the hemisphere */
-    uint dome_count; /* points of the sky */
-    uint ring_count; /* rings of diffuse lobes; divides the rings of cells */
-    uint unused;
+    uint cell_count;   /* of the hemisphere */
+    uint dome_count;   /* points of the sky */
+    uint ring_count;   /* rings of diffuse lobes; divides the rings of cells */
+    uint light_length; /* floats of a row of the facets' light */
+    uint
+        is_of_facets; /* 1: all surfaces are taken as diffuse, and light has a float a sample; 0: it
+                          has one a block of samples */
+    uint unused[3];
 } incident_record;
-RECORD_SIZE(incident_record, 16);
+RECORD_SIZE(incident_record, 32);
 
 /* A band of the sensor. */
 typedef struct band_record {

@@ -12,7 +12,19 @@ typedef struct around {
     global const material_record *materials;
     global const float *temperature_k;
     global const background_record *facet_background;
+    global const float *light; /* shape (facets, 2, how.light_length): incident_light */
+    incident_record how;
 } around;
+
+static inline incident_light light_of(around from, uint facet, uint block)
+{
+    global const float *lobe = from.light + (size_t)facet * 2u * from.how.light_length;
+    global const float *extra = lobe + from.how.light_length;
+
+    if (from.how.is_of_facets)
+        return (incident_light){spectrum_load(lobe, block), spectrum_load(extra, block)};
+    return (incident_light){(spectrum)lobe[block], (spectrum)extra[block]};
+}
 
 /* A facet seen from a point along a unit direction, without its emissivity.
  *   out_cosine   of the angle from its normal to the ray */
@@ -25,6 +37,7 @@ static inline incident_facet see_face(around from, radiometry_record frame, uint
     const float facing = along < 0.0f ? -1.0f : 1.0f;
     incident_facet out;
 
+    out.facet = facet;
     out.weight = weight;
     out.temperature_k = from.temperature_k[facet];
     out.sun = lit * fmax(facing * pixel_dot(seen.normal, frame.sun), 0.0f);
