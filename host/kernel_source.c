@@ -5,12 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILE_LIMIT = 64 };
-
 typedef struct assembly {
     FILE *stream;
-    bool included[FILE_LIMIT];
+    bool *included; /* shape (file_count()) */
 } assembly;
+
+static size_t file_count(void)
+{
+    size_t count = 0;
+
+    while (kernel_files[count].name) count++;
+    return count;
+}
 
 static int find_file(const char *name, size_t length)
 {
@@ -61,6 +67,8 @@ status kernel_source_read(char **out, const char *name)
 
     snprintf(file_name, sizeof file_name, "%s.cl", name);
     file = find_file(file_name, strlen(file_name));
+    all.included = calloc(file_count() + 1, sizeof *all.included);
+    NEED(all.included, STATUS_MEMORY, "kernel %s: no memory for its text", name);
     NEED(file >= 0, STATUS_DEVICE, "kernel %s: kernels/%s is not part of this program", name,
          file_name);
     all.stream = open_memstream(&text, &size);
@@ -69,5 +77,6 @@ status kernel_source_read(char **out, const char *name)
     NEED(fclose(all.stream) == 0, STATUS_MEMORY, "kernel %s: no memory for its text", name);
     *out = text;
 out:
+    free(all.included);
     return rc;
 }
