@@ -11,10 +11,13 @@ SHIPPED = ROOT / "scenes" / "atmosphere"
 
 
 def test_the_shipped_files_fit_in_6_mb():
-    assert sum(path.stat().st_size for path in SHIPPED.iterdir()) < 6e6
+    databases = [path for kind in ("rad", "radc") for path in SHIPPED.parent.glob(f"*/*.{kind}")]
+
+    assert len(databases) > 30
+    assert sum(path.stat().st_size for path in [*databases, *SHIPPED.glob("*.ext"), *SHIPPED.glob("*.csv")]) < 6e6
 
 
-@pytest.mark.parametrize("path", sorted(SHIPPED.glob("*.radc")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sorted(SHIPPED.parent.glob("*/*.radc")), ids=lambda path: f"{path.parent.name}-{path.stem}")
 def test_a_container_is_whole_and_its_integral_is_that_of_its_sky(path):
     database = radiance_database.read_container(path)
     sky = database["sky"]
@@ -65,6 +68,17 @@ def test_the_sky_of_a_shipped_table_is_that_of_2_5_degrees(atmosphere, tmp_path,
     at = [int(numpy.flatnonzero(shipped["wavenumber"] == nu)[0]) for nu in (high, low)]
 
     assert shipped["integrated"][at].sum(axis=1) == pytest.approx(1e4 * fine["integrated"].sum(axis=1), rel=0.01)
+
+
+@pytest.mark.parametrize("name", ["june24_1500z_vis", "june24_lwir_10"])  # the bands of the scene
+def test_the_sky_of_the_clouds_is_that_of_the_finer_tables(name):
+    clouds = radiance_database.read_container(SHIPPED.parent / "cloud/june24_1500z.radc")
+    finer = radiance_database.read_container(SHIPPED / f"{name}.radc")
+    fine = numpy.linspace(*(1e4 / finer["wavenumber"][[1, -2]]), 5000)
+    band = lambda air: numpy.trapz(numpy.interp(fine, 1e4 / air["wavenumber"], air["integrated"].sum(axis=1)), fine)
+
+    # the finer tables themselves are checked above
+    assert band(clouds) == pytest.approx(band(finer), rel=0.005)
 
 
 def test_a_shipped_database_is_made_again_bit_for_bit(atmosphere, tmp_path):
