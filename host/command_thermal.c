@@ -18,7 +18,8 @@ static const char help[] =
     "usage: radsig thermal --materials FILE --material NAME --weather FILE --site LAT,LON\n"
     "                      --date YYYY-MM-DD --utc-offset H --thickness-cm X\n"
     "                      [--slope D --azimuth D --power-w-m2 X --model therm|layered\n"
-    "                       --sky-longwave LAW --convection LAW --diffuse LAW --plot FILE.png]\n"
+    "                       --sky-longwave LAW --convection LAW --diffuse LAW\n"
+    "                       --roughness-length-m X --wind-height-m X --plot FILE.png]\n"
     "       radsig thermal --sensitivity --materials FILE --weather FILE --site LAT,LON\n"
     "                      --date YYYY-MM-DD --utc-offset H\n"
     "                      [--objects FILE.csv | --thickness-cm X ...] [--runs N --seed N]\n"
@@ -34,7 +35,8 @@ static const char help[] =
     "  --model        therm (the default), or layered: unequal nodes, McAdams' convection, air\n"
     "                 behind where abs(exposed area) is above .75\n"
     "  --sky-longwave brunt (the default), berdahl-martin or brutsaert\n"
-    "  --convection   therm or mcadams; by default the model's own\n"
+    "  --convection   therm, mcadams, tarp or similarity; by default the model's own\n"
+    "  --roughness-length-m, --wind-height-m   of similarity (default .001 and 10)\n"
     "  --diffuse      isotropic (the default) or hay-davies\n"
     "  --plot         draws the temperatures and the air's\n"
     "\n"
@@ -76,6 +78,8 @@ enum {
     SKY_LONGWAVE,
     CONVECTION,
     DIFFUSE,
+    ROUGHNESS,
+    WIND_HEIGHT,
     PLOT,
     OBJECTS,
     RUNS,
@@ -100,6 +104,8 @@ static const struct option options[] = {[MATERIALS] = {"materials", 1, NULL, MAT
                                         [SKY_LONGWAVE] = {"sky-longwave", 1, NULL, SKY_LONGWAVE},
                                         [CONVECTION] = {"convection", 1, NULL, CONVECTION},
                                         [DIFFUSE] = {"diffuse", 1, NULL, DIFFUSE},
+                                        [ROUGHNESS] = {"roughness-length-m", 1, NULL, ROUGHNESS},
+                                        [WIND_HEIGHT] = {"wind-height-m", 1, NULL, WIND_HEIGHT},
                                         [PLOT] = {"plot", 1, NULL, PLOT},
                                         [OBJECTS] = {"objects", 1, NULL, OBJECTS},
                                         [RUNS] = {"runs", 1, NULL, RUNS},
@@ -160,14 +166,16 @@ static int check_use(char *value[VALUES], const thermal_request *request)
 
 static int check_values(char *value[VALUES], thermal_request *out)
 {
+    const command_law_texts laws = {value[SKY_LONGWAVE], value[CONVECTION], value[DIFFUSE],
+                                    value[ROUGHNESS], value[WIND_HEIGHT]};
+
     for (int i = 0; i < REQUIRED; i++)
         if (!value[i]) return command_misuse("thermal", "needs --%s", options[i].name);
     if (check_use(value, out)) return EXIT_USAGE;
     if (value[MODEL] && strcmp(value[MODEL], "therm") && strcmp(value[MODEL], "layered"))
         return command_misuse("thermal", "--model '%s': expected therm or layered", value[MODEL]);
     out->is_layered = value[MODEL] && !strcmp(value[MODEL], "layered");
-    if (check_place(value, &out->place) ||
-        command_laws("thermal", value[SKY_LONGWAVE], value[CONVECTION], value[DIFFUSE], &out->laws))
+    if (check_place(value, &out->place) || command_laws("thermal", &laws, &out->laws))
         return EXIT_USAGE;
     if (check_number(value[SLOPE], SLOPE, 0.0, 180.0, &out->slope_deg) ||
         check_number(value[AZIMUTH], AZIMUTH, -360.0, 360.0, &out->azimuth_deg) ||

@@ -18,7 +18,8 @@ static const char help[] =
     "           --conductivity-w-m-k K --heat-capacity-j-m3-k C\n"
     "           [--surface-resistance-s-m DAY,NIGHT --back adiabatic|air|ground --model "
     "layered|therm\n"
-    "            --sky-longwave LAW --convection LAW -o FILE.csv --plot FILE.png]\n"
+    "            --sky-longwave LAW --convection LAW --roughness-length-m X --wind-height-m X\n"
+    "            -o FILE.csv --plot FILE.png]\n"
     "\n"
     "Takes a level surface through measured weather and compares its temperature with the "
     "measured\n"
@@ -30,7 +31,8 @@ static const char help[] =
     "                             temperature 1 m below the surface\n"
     "  --sky-longwave             where none was measured: brunt (the default), berdahl-martin or\n"
     "                             brutsaert\n"
-    "  --convection               therm or mcadams; by default the model's own\n"
+    "  --convection               therm, mcadams, tarp or similarity; by default the model's own\n"
+    "  --roughness-length-m, --wind-height-m   of similarity (default .001 and 10)\n"
     "  -o                         writes time_h,measured_c,predicted_c\n"
     "  --plot                     draws both\n";
 
@@ -58,6 +60,8 @@ enum {
     MODEL,
     SKY_LONGWAVE,
     CONVECTION,
+    ROUGHNESS,
+    WIND_HEIGHT,
     OUTPUT,
     PLOT
 };
@@ -77,6 +81,8 @@ static const struct option options[] = {
     [MODEL] = {"model", 1, NULL, MODEL},
     [SKY_LONGWAVE] = {"sky-longwave", 1, NULL, SKY_LONGWAVE},
     [CONVECTION] = {"convection", 1, NULL, CONVECTION},
+    [ROUGHNESS] = {"roughness-length-m", 1, NULL, ROUGHNESS},
+    [WIND_HEIGHT] = {"wind-height-m", 1, NULL, WIND_HEIGHT},
     [OUTPUT] = {"output", 1, NULL, OUTPUT},
     [PLOT] = {"plot", 1, NULL, PLOT},
     [HELP] = {"help", 0, NULL, HELP},
@@ -141,12 +147,14 @@ static int take_layered(char *value[VALUES], validation *out)
 
 static int take_values(char *value[VALUES], validation *out)
 {
+    const command_law_texts laws = {value[SKY_LONGWAVE], value[CONVECTION], NULL, value[ROUGHNESS],
+                                    value[WIND_HEIGHT]};
     float thickness_cm = 0.0f, capacity = 0.0f;
 
     for (int i = 0; i < REQUIRED; i++)
         if (!value[i]) return command_misuse("validate", "needs --%s", options[i].name);
     if (take_place(value, &out->place) || take_layered(value, out) ||
-        command_laws("validate", value[SKY_LONGWAVE], value[CONVECTION], NULL, &out->laws) ||
+        command_laws("validate", &laws, &out->laws) ||
         take_number(value, ABSORPTANCE, 0.0, 1.0, &out->material.solar_absorptance) ||
         take_number(value, EMISSIVITY, 0.1, 1.0, &out->material.thermal_emissivity) ||
         take_number(value, THICKNESS, 1e-4, 1e4, &thickness_cm) ||

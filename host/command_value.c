@@ -49,21 +49,37 @@ bool command_word(const char *text, const char *const *words, int count, int *ou
     return false;
 }
 
-int command_laws(const char *command, const char *sky_longwave, const char *convection,
-                 const char *diffuse, forcing_laws *out)
+int command_laws(const char *command, const command_law_texts *text, forcing_laws *out)
 {
     int sky = 0, air = -1, light = 0;
 
-    if (sky_longwave && !command_word(sky_longwave, forcing_sky_names, FORCING_SKIES, &sky))
+    *out = (forcing_laws){0};
+    if (text->sky_longwave &&
+        !command_word(text->sky_longwave, forcing_sky_names, FORCING_SKIES, &sky))
         return command_misuse(command,
-                              "--sky-longwave '%s': expected brunt, berdahl-martin or "
-                              "brutsaert",
-                              sky_longwave);
-    if (convection &&
-        !command_word(convection, forcing_convection_names + 1, FORCING_CONVECTIONS - 1, &air))
-        return command_misuse(command, "--convection '%s': expected therm or mcadams", convection);
-    if (diffuse && !command_word(diffuse, forcing_diffuse_names, FORCING_DIFFUSES, &light))
-        return command_misuse(command, "--diffuse '%s': expected isotropic or hay-davies", diffuse);
-    *out = (forcing_laws){(forcing_sky)sky, (forcing_convection)(air + 1), (forcing_diffuse)light};
+                              "--sky-longwave '%s': expected brunt, berdahl-martin or brutsaert",
+                              text->sky_longwave);
+    if (text->convection && !command_word(text->convection, forcing_convection_names + 1,
+                                          FORCING_CONVECTIONS - 1, &air))
+        return command_misuse(command,
+                              "--convection '%s': expected therm, mcadams, tarp or similarity",
+                              text->convection);
+    if (text->diffuse &&
+        !command_word(text->diffuse, forcing_diffuse_names, FORCING_DIFFUSES, &light))
+        return command_misuse(command, "--diffuse '%s': expected isotropic or hay-davies",
+                              text->diffuse);
+    out->sky = (forcing_sky)sky;
+    out->convection = (forcing_convection)(air + 1);
+    out->diffuse = (forcing_diffuse)light;
+    if (text->roughness_length_m &&
+        !command_number(text->roughness_length_m, FORCING_ROUGHNESS_LOW_M, FORCING_ROUGHNESS_HIGH_M,
+                        &out->roughness_length_m))
+        return command_misuse(command, "--roughness-length-m '%s': expected a number from %g to %g",
+                              text->roughness_length_m, FORCING_ROUGHNESS_LOW_M,
+                              FORCING_ROUGHNESS_HIGH_M);
+    if (text->wind_height_m && !command_number(text->wind_height_m, FORCING_HEIGHT_LOW_M,
+                                               FORCING_HEIGHT_HIGH_M, &out->wind_height_m))
+        return command_misuse(command, "--wind-height-m '%s': expected a number from %g to %g",
+                              text->wind_height_m, FORCING_HEIGHT_LOW_M, FORCING_HEIGHT_HIGH_M);
     return 0;
 }

@@ -18,8 +18,12 @@ bool command_place(const char *text, double *latitude_deg, double *longitude_deg
 /* Takes one of `count` words; sets its index. */
 bool command_word(const char *text, const char *const *words, int count, int *out);
 
-/* Sets the laws that are stated; NULL is none. Returns 0, or the exit code of a misuse. */
-int command_laws(const char *command, const char *sky_longwave, const char *convection,
-                 const char *diffuse, forcing_laws *out);
+/* What stands behind the options of the same names; NULL: not given. */
+typedef struct command_law_texts {
+    const char *sky_longwave, *convection, *diffuse, *roughness_length_m, *wind_height_m;
+} command_law_texts;
+
+/* Sets the laws that are stated. Returns 0, or the exit code of a misuse. */
+int command_laws(const char *command, const command_law_texts *text, forcing_laws *out);
 
 #endif

@@ -1,16 +1,27 @@
 #include "forcing.h"
 
 #include "constants.h"
+#include "convection.h"
 
 #include <math.h>
 
 #define WATER_J_M3_K 4.182e6 /* density times specific heat of water at 20 C */
 
+/* TARP: 2.537 times 1.52, medium rough, times the root of perimeter by area, 1 per m. */
+#define TARP_W_M2_K (2.537 * 1.52)
+
+#define KARMAN 0.4
+#define GRAVITY_M_S2 9.80665
+#define AIR_J_KG_K 287.05
+#define AIR_HEAT_J_KG_K 1005.0
+#define LEAST_WIND_M_S 0.1
+
 /* The sun at the horizon: below this cosine diffuse light from its direction grows no more. */
 #define LEAST_COSINE 0.01745
 
 const char *const forcing_sky_names[FORCING_SKIES] = {"brunt", "berdahl-martin", "brutsaert"};
-const char *const forcing_convection_names[FORCING_CONVECTIONS] = {"", "therm", "mcadams"};
+const char *const forcing_convection_names[FORCING_CONVECTIONS] = {"", "therm", "mcadams", "tarp",
+                                                                   "similarity"};
 const char *const forcing_diffuse_names[FORCING_DIFFUSES] = {"isotropic", "hay-davies"};
 
 /* Rise of the sky's emissivity under an overcast of each cloud type: Bolz. */
@@ -40,11 +51,36 @@ static double sky_longwave_w_m2(const weather_record *w, forcing_sky sky)
     return emissivity * (double)STEFAN_BOLTZMANN * air_k * air_k * air_k * air_k;
 }
 
-static double convection_w_m2_k(const weather_record *w, forcing_convection law, bool is_layered)
+/* Louis' law for heat, its constants as he gives them. */
+static void set_similarity(forcing_record *out, const weather_record *w, const forcing_laws *laws)
 {
+    const double height_m = laws->wind_height_m > 0.0 ? laws->wind_height_m : 10.0;
+    const double length_m = laws->roughness_length_m > 0.0 ? laws->roughness_length_m : 0.001;
+    const double wind_m_s = fmax(LEAST_WIND_M_S, w->wind_m_s);
+    const double warmth_k = w->air_temperature_k * (1.0 + 0.608 * weather_specific_humidity(w));
+    const double density_kg_m3 = w->pressure_pa / (AIR_J_KG_K * warmth_k);
+    const double drag = pow(KARMAN / log(height_m / length_m), 2.0);
+
+    out->convection_law = CONVECTION_SIMILARITY;
+    out->convection_w_m2_k = (float)(density_kg_m3 * AIR_HEAT_J_KG_K * drag / 0.74 * wind_m_s);
+    out->buoyancy = (float)(GRAVITY_M_S2 * height_m / (wind_m_s * wind_m_s));
+    out->roughness = (float)(5.3 * 9.4 * drag * sqrt(height_m / length_m));
+}
+
+static void set_convection(forcing_record *out, const weather_record *w, const forcing_laws *laws,
+                           bool is_layered)
+{
+    const forcing_convection law = laws->convection;
     const bool is_mcadams = law == FORCING_MCADAMS || (law == FORCING_BY_MODEL && is_layered);
 
-    return is_mcadams ? 5.7 + 3.8 * w->wind_m_s : 9.0 + 1.2 * w->wind_m_s;
+    out->convection_law = law == FORCING_TARP ? CONVECTION_TARP : CONVECTION_WIND;
+    if (law == FORCING_SIMILARITY)
+        set_similarity(out, w, laws);
+    else if (law == FORCING_TARP)
+        out->convection_w_m2_k = (float)(TARP_W_M2_K * sqrt(w->wind_m_s));
+    else
+        out->convection_w_m2_k =
+            (float)(is_mcadams ? 5.7 + 3.8 * w->wind_m_s : 9.0 + 1.2 * w->wind_m_s);
 }
 
 /* Diffuse light from the sun's direction goes with the beam, and into shadow with it. */
@@ -68,7 +104,6 @@ forcing_record forcing_of(const weather_record *w, sun_position sun, const forci
     forcing_record out = {
         .air_temperature_k = (float)w->air_temperature_k,
         .sky_longwave_w_m2 = (float)sky_longwave_w_m2(w, laws->sky),
-        .convection_w_m2_k = (float)convection_w_m2_k(w, laws->convection, is_layered),
         .direct_w_m2 = (float)direct_w_m2,
         .diffuse_w_m2 = (float)diffuse_w_m2,
         .rain_w_m2_k = (float)(WATER_J_M3_K * rain_m_s),
@@ -78,6 +113,7 @@ forcing_record forcing_of(const weather_record *w, sun_position sun, const forci
         .specific_humidity = (float)weather_specific_humidity(w),
         .pressure_pa = (float)w->pressure_pa,
     };
+    set_convection(&out, w, laws, is_layered);
     sun_direction(sun, direction);
     for (int i = 0; i < 3; i++) out.sun[i] = (float)direction[i];
     return out;

@@ -16,9 +16,12 @@ typedef enum forcing_sky { FORCING_BRUNT, FORCING_BERDAHL_MARTIN, FORCING_BRUTSA
 
 /* Heat that air takes, W m-2 K-1, at a wind of V m/s. */
 typedef enum forcing_convection {
-    FORCING_BY_MODEL, /* THERM's, of layered facets McAdams' */
-    FORCING_THERM,    /* 9 + 1.2 V */
-    FORCING_MCADAMS   /* 5.7 + 3.8 V: McAdams 1954 */
+    FORCING_BY_MODEL,  /* THERM's, of layered facets McAdams' */
+    FORCING_THERM,     /* 9 + 1.2 V */
+    FORCING_MCADAMS,   /* 5.7 + 3.8 V: McAdams 1954 */
+    FORCING_TARP,      /* 3.86 sqrt(V), as of a medium rough plate of 4 m x 4 m (assumed), and what
+                         rises by itself: kernels/convection.h */
+    FORCING_SIMILARITY /* over a roughness length; V at least .1 m/s: kernels/convection.h */
 } forcing_convection;
 
 /* Where the sky's diffuse light comes from. Hay and Davies, 1980: what the beam is of that outside
@@ -29,14 +32,21 @@ typedef struct forcing_laws {
     forcing_sky sky;
     forcing_convection convection;
     forcing_diffuse diffuse;
+    double roughness_length_m, wind_height_m; /* of similarity; 0: .001 and 10 */
 } forcing_laws;
 
-enum { FORCING_SKIES = 3, FORCING_CONVECTIONS = 3, FORCING_DIFFUSES = 2 };
+enum { FORCING_SKIES = 3, FORCING_CONVECTIONS = 5, FORCING_DIFFUSES = 2 };
 
 /* As scenes and the command line name them; the first convection is no name: "". */
 extern const char *const forcing_sky_names[FORCING_SKIES];
 extern const char *const forcing_convection_names[FORCING_CONVECTIONS];
 extern const char *const forcing_diffuse_names[FORCING_DIFFUSES];
+
+/* Ranges of the roughness length and of the height of the wind above it, in m. */
+#define FORCING_ROUGHNESS_LOW_M 1e-5
+#define FORCING_ROUGHNESS_HIGH_M 0.5
+#define FORCING_HEIGHT_LOW_M 1.0
+#define FORCING_HEIGHT_HIGH_M 100.0
 
 /* Turns a record into what acts on a surface. Measured longwave goes before the law's; clouds raise
  * the law's by 1 + a n^2 with Bolz' a of their type and their cover n, to 1 at most. */

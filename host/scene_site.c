@@ -142,6 +142,10 @@ static void read_laws(scene_table *t, forcing_laws *out)
     if (scene_table_word(t, "convection", forcing_convection_names + 1, FORCING_CONVECTIONS - 1,
                          &convection))
         out->convection = (forcing_convection)(convection + 1);
+    scene_table_number(t, "roughness_length_m", FORCING_ROUGHNESS_LOW_M, FORCING_ROUGHNESS_HIGH_M,
+                       &out->roughness_length_m);
+    scene_table_number(t, "wind_height_m", FORCING_HEIGHT_LOW_M, FORCING_HEIGHT_HIGH_M,
+                       &out->wind_height_m);
     out->sky = (forcing_sky)sky;
     out->diffuse = (forcing_diffuse)diffuse;
 }

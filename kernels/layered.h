@@ -64,7 +64,7 @@ typedef struct layered_state {
 /* What the air does to a wet surface: the same for all lanes. */
 typedef struct layered_air {
     float humidity, pressure_pa, density_kg_m3;
-    float convection_w_m2_k;
+    convection_air convection;
     float is_day;
     float rain_kg_m2_s;
 } layered_air;
@@ -107,7 +107,7 @@ static inline layered_air layered_air_of(forcing_record now)
     air.humidity = now.specific_humidity;
     air.pressure_pa = now.pressure_pa;
     air.density_kg_m3 = now.pressure_pa / (287.05f * warmth);
-    air.convection_w_m2_k = now.convection_w_m2_k;
+    air.convection = thermal_air_of(now);
     air.is_day = now.sun[2] > 0.0f ? 1.0f : 0.0f;
     air.rain_kg_m2_s = 1000.0f * now.rain_w_m2_k / LAYERED_RAIN_J_M3_K;
     return air;
@@ -130,7 +130,11 @@ static inline thermal_flux layered_latent(const layered_body *body, layered_air 
     const lanes slope = humidity * (17.62f * 243.12f) / (reach * reach) * air.pressure_pa / rest_pa;
     const lanes evaporates = surface_s_m < none ? none : one;
     /* ra = rho cp / h, in s/m */
-    const float air_s_m = air.density_kg_m3 * 1005.0f / fmax(air.convection_w_m2_k, 1e-3f);
+    const float heat_j_m3_k = air.density_kg_m3 * 1005.0f, least = 1e-3f;
+    lanes air_s_m = (lanes)(heat_j_m3_k / fmax(air.convection.wind_w_m2_k, least));
+    if (air.convection.law != CONVECTION_WIND)
+        air_s_m = heat_j_m3_k /
+                  fmax(convection_of(air.convection, body->face.normal[2], face_k), (lanes)least);
     const lanes vaporisation = 2.501e6f - 2361.0f * celsius; /* J/kg */
     const lanes share = evaporates * air.density_kg_m3 * vaporisation / (air_s_m + surface_s_m);
 

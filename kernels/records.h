@@ -107,8 +107,11 @@ typedef struct forcing_record {
     float rain_temperature_k;
     float specific_humidity; /* of the air, kg of vapour per kg */
     float pressure_pa;
+    uint convection_law; /* CONVECTION_..., see convection.h, as for the next two */
+    float buoyancy, roughness;
+    uint unused;
 } forcing_record;
-RECORD_SIZE(forcing_record, 48);
+RECORD_SIZE(forcing_record, 64);
 
 /* What rays need of a scene besides its triangles. */
 typedef struct world_record {

@@ -12,6 +12,7 @@
 #define THERMAL_KERNEL_H
 
 #include "constants.h"
+#include "convection.h"
 #include "dialect.h"
 #include "lanes.h"
 #include "records.h"
@@ -53,7 +54,8 @@ typedef struct thermal_load {
     lanes steady_w_m2; /* all else that the front takes in whatever its temperature */
     lanes back_w_m2;   /* the same for the back */
     lanes rain_w_m2_k;
-    float convection_w_m2_k, air_k, rain_k;
+    float air_k, rain_k;
+    convection_air air;
 } thermal_load;
 
 typedef struct thermal_state {
@@ -105,6 +107,18 @@ static inline lanes thermal_longwave_of(const thermal_body *body, forcing_record
            (1.0f - body->sky) * thermal_black_w_m2(now.air_temperature_k);
 }
 
+static inline convection_air thermal_air_of(forcing_record now)
+{
+    convection_air air;
+
+    air.law = now.convection_law;
+    air.temperature_k = now.air_temperature_k;
+    air.wind_w_m2_k = now.convection_w_m2_k;
+    air.buoyancy = now.buoyancy;
+    air.roughness = now.roughness;
+    return air;
+}
+
 /* lit: 1 where the sun reaches the facet, 0 in shadow. */
 static inline thermal_load thermal_load_of(const thermal_body *body, forcing_record now, lanes lit)
 {
@@ -122,7 +136,7 @@ static inline thermal_load thermal_load_of(const thermal_body *body, forcing_rec
     load.steady_w_m2 = body->power_w_m2 + body->front * (body->absorptance * sun_w_m2 +
                                                          body->emissivity * longwave_w_m2);
     load.back_w_m2 = body->back * body->emissivity * thermal_black_w_m2(now.air_temperature_k);
-    load.convection_w_m2_k = now.convection_w_m2_k;
+    load.air = thermal_air_of(now);
     load.air_k = now.air_temperature_k;
     /* assumed: rain falls straight down. */
     load.rain_w_m2_k = body->front * fmax(body->normal[2], none) * now.rain_w_m2_k;
@@ -140,12 +154,23 @@ static inline thermal_load thermal_load_between(const thermal_load *a, const the
     load.direct_w_m2 = direct_w_m2;
     load.steady_w_m2 = a->steady_w_m2 + share * (b->steady_w_m2 - a->steady_w_m2);
     load.back_w_m2 = a->back_w_m2 + share * (b->back_w_m2 - a->back_w_m2);
-    load.convection_w_m2_k =
-        a->convection_w_m2_k + share * (b->convection_w_m2_k - a->convection_w_m2_k);
     load.air_k = a->air_k + share * (b->air_k - a->air_k);
+    load.air = b->air;
+    load.air.temperature_k = load.air_k;
+    load.air.wind_w_m2_k = a->air.wind_w_m2_k + share * (b->air.wind_w_m2_k - a->air.wind_w_m2_k);
     load.rain_w_m2_k = a->rain_w_m2_k + share * (b->rain_w_m2_k - a->rain_w_m2_k);
     load.rain_k = a->rain_k + share * (b->rain_k - a->rain_k);
     return load;
+}
+
+/* Heat that air takes per kelvin from a face that looks up by `up`. */
+static inline lanes thermal_convection(const thermal_load *load, lanes share, lanes up,
+                                       lanes face_k)
+{
+    lanes taken = share * load->air.wind_w_m2_k;
+
+    if (load->air.law != CONVECTION_WIND) taken = share * convection_of(load->air, up, face_k);
+    return taken;
 }
 
 static inline thermal_flux thermal_front_flux(const thermal_body *body, const thermal_load *load,
@@ -153,7 +178,7 @@ static inline thermal_flux thermal_front_flux(const thermal_body *body, const th
 {
     const lanes share = body->front * body->emissivity * STEFAN_BOLTZMANN;
     const lanes cube_w_m2_k = share * front_k * front_k * front_k;
-    const lanes convection_w_m2_k = body->front * load->convection_w_m2_k;
+    const lanes convection_w_m2_k = thermal_convection(load, body->front, body->normal[2], front_k);
     thermal_flux flux;
 
     flux.w_m2 = load->direct_w_m2 + load->steady_w_m2 - cube_w_m2_k * front_k +
@@ -168,7 +193,7 @@ static inline thermal_flux thermal_back_flux(const thermal_body *body, const the
 {
     const lanes share = body->back * body->emissivity * STEFAN_BOLTZMANN;
     const lanes cube_w_m2_k = share * back_k * back_k * back_k;
-    const lanes convection_w_m2_k = body->back * load->convection_w_m2_k;
+    const lanes convection_w_m2_k = thermal_convection(load, body->back, -body->normal[2], back_k);
     thermal_flux flux;
 
     flux.w_m2 = load->back_w_m2 - cube_w_m2_k * back_k + convection_w_m2_k * (load->air_k - back_k);

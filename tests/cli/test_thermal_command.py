@@ -134,6 +134,8 @@ def test_air_that_is_a_fifth_of_a_degree_warmer_warms_objects_by_as_much(
     ({"weather": None}, "needs --weather"),
     ({"sky_longwave": "x"}, "--sky-longwave 'x': expected brunt"),
     ({"convection": "x"}, "--convection 'x': expected therm"),
+    ({"roughness_length_m": "0"}, "--roughness-length-m '0': expected a number from 1e-05 to 0.5"),
+    ({"wind_height_m": "high"}, "--wind-height-m 'high': expected a number from 1 to 100"),
     ({"diffuse": "x"}, "--diffuse 'x': expected isotropic"),
     ({"bogus": 1}, "'--bogus=1' is no option"),
 ])

@@ -1,6 +1,7 @@
 #include "assert_near.h"
 
 #include "constants.h"
+#include "convection.h"
 #include "forcing.h"
 #include "weather_synthesis.h"
 
@@ -79,6 +80,48 @@ static void convection_is_the_model_s_own_unless_stated(void **state)
     assert_near(forcing_of(&w, at_30_deg, &mcadams, false).convection_w_m2_k, 5.7 + 3.8 * 3, 1e-5);
 }
 
+static void tarp_s_wind_is_that_of_a_medium_rough_plate(void **state)
+{
+    (void)state;
+    const weather_record w = mild();
+    const forcing_laws laws = {.convection = FORCING_TARP};
+    const forcing_record f = forcing_of(&w, at_30_deg, &laws, true);
+
+    assert_int_equal(f.convection_law, CONVECTION_TARP);
+    assert_near(f.convection_w_m2_k, 2.537 * 1.52 * sqrt(3 * 16.0 / 16), 1e-4); /* 4 m x 4 m */
+}
+
+/* rho cp k^2 V / (.74 ln^2(z/z0)), g z / V^2 and 5.3 x 9.4 k^2 / ln^2(z/z0) (z/z0)^.5. */
+static void similarity_takes_the_logarithmic_wind_s_part(void **state)
+{
+    (void)state;
+    const weather_record w = mild();
+    const forcing_laws usual = {.convection = FORCING_SIMILARITY};
+    const forcing_laws stated = {
+        .convection = FORCING_SIMILARITY, .roughness_length_m = 0.05, .wind_height_m = 3};
+    const forcing_record f = forcing_of(&w, at_30_deg, &usual, false);
+    const forcing_record g = forcing_of(&w, at_30_deg, &stated, false);
+    const double humidity = 0.622 * 10 / (1000 - 0.378 * 10);
+    const double heat = 1005 * 1e5 / (287.05 * 293.15 * (1 + 0.608 * humidity));
+
+    assert_int_equal(f.convection_law, CONVECTION_SIMILARITY);
+    assert_near(f.convection_w_m2_k, heat * 0.16 * 3 / (0.74 * pow(log(10000), 2)), 1e-3);
+    assert_near(f.buoyancy, 9.80665 * 10 / 9, 1e-4);
+    assert_near(f.roughness, 5.3 * 9.4 * 0.16 / pow(log(10000), 2) * sqrt(10000), 1e-4);
+    assert_near(g.convection_w_m2_k, heat * 0.16 * 3 / (0.74 * pow(log(60), 2)), 1e-3);
+    assert_near(g.buoyancy, 9.80665 * 3 / 9, 1e-5);
+}
+
+static void still_air_keeps_a_breath_of_wind_over_a_roughness(void **state)
+{
+    (void)state;
+    weather_record w = mild();
+    w.wind_m_s = 0;
+    const forcing_laws laws = {.convection = FORCING_SIMILARITY};
+
+    assert_near(forcing_of(&w, at_30_deg, &laws, false).buoyancy, 9.80665 * 10 / 0.01, 0.01);
+}
+
 static void hay_and_davies_move_the_sun_s_share_into_the_beam(void **state)
 {
     (void)state;
@@ -152,6 +195,9 @@ int main(void)
         cmocka_unit_test(berdahl_s_sky_is_colder_at_noon_and_warmer_under_pressure),
         cmocka_unit_test(clouds_raise_every_law_and_measured_longwave_none),
         cmocka_unit_test(convection_is_the_model_s_own_unless_stated),
+        cmocka_unit_test(tarp_s_wind_is_that_of_a_medium_rough_plate),
+        cmocka_unit_test(similarity_takes_the_logarithmic_wind_s_part),
+        cmocka_unit_test(still_air_keeps_a_breath_of_wind_over_a_roughness),
         cmocka_unit_test(hay_and_davies_move_the_sun_s_share_into_the_beam),
         cmocka_unit_test(without_a_beam_all_skies_are_isotropic),
         cmocka_unit_test(an_east_wall_gets_what_another_library_gives_it),

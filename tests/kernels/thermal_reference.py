@@ -17,9 +17,10 @@ MATERIAL = np.dtype({
     "formats": ["f4"] * 6, "offsets": [0, 4, 8, 12, 16, 20], "itemsize": 48})
 FORCING = np.dtype({
     "names": ["air_temperature_k", "sky_longwave_w_m2", "convection_w_m2_k", "direct_w_m2",
-              "diffuse_w_m2", "sun", "rain_w_m2_k", "rain_temperature_k", "specific_humidity", "pressure_pa"],
-    "formats": ["f4", "f4", "f4", "f4", "f4", ("f4", 3), "f4", "f4", "f4", "f4"],
-    "offsets": [0, 4, 8, 12, 16, 20, 32, 36, 40, 44], "itemsize": 48})
+              "diffuse_w_m2", "sun", "rain_w_m2_k", "rain_temperature_k", "specific_humidity", "pressure_pa",
+              "convection_law", "buoyancy", "roughness"],
+    "formats": ["f4", "f4", "f4", "f4", "f4", ("f4", 3), "f4", "f4", "f4", "f4", "u4", "f4", "f4"],
+    "offsets": [0, 4, 8, 12, 16, 20, 32, 36, 40, 44, 48, 52, 56], "itemsize": 64})
 SPAN = np.dtype({
     "names": ["facet_count", "first_step", "row_count", "sunlit_words", "weight", "step_s",
               "sunlit_period", "step_count"],
