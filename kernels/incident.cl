@@ -3,6 +3,32 @@
 /* Cells whose facets are held at once. */
 #define ROUND 16u
 
+/* The directions of a ring that count for any lane.
+ *   out_used   their rows of the weights; returns how many they are */
+static uint list_used(const lanes *weights, uint directions, ushort *out_used)
+{
+    uint count = 0;
+
+    for (uint d = 0; d < directions; d++) {
+        out_used[count] = (ushort)d;
+        count += lanes_any(weights[d] != 0.0f);
+    }
+    return count;
+}
+
+/* Adds the sky's radiance in a ring to all lanes.
+ *   weight   shape (directions, LANES_WIDTH) */
+static void add_ring(const float *weight, const ushort *used, uint used_count, uint row_length,
+                     global const float *sky, uint block, spectrum sum[LANES_WIDTH])
+{
+    for (uint u = 0; u < used_count; u++) {
+        const float *of_lane = weight + used[u] * LANES_WIDTH;
+        const spectrum radiance = spectrum_load(sky + (size_t)used[u] * row_length, block);
+        UNROLL
+        for (uint i = 0; i < LANES_WIDTH; i++) sum[i] += of_lane[i] * radiance;
+    }
+}
+
 /* Writes the sky's radiance by the weights of its directions. */
 static void write_sky(const lanes *weights, radiometry_record frame, const incident_group *g,
                       uint ring_count, global const float *spectra, global const float *emissivity,
@@ -10,27 +36,25 @@ static void write_sky(const lanes *weights, radiometry_record frame, const incid
 {
     const uint row = frame.sample_count, directions = frame.zenith_count * frame.azimuth_count;
     global const float *sky = spectra + (size_t)(SPECTRA_PATHS + 2u * frame.path_count) * row;
+    ushort used[INCIDENT_WEIGHTS];
 
-    for (uint block = 0; block < row / SPECTRUM_WIDTH; block++) {
-        spectrum total[LANES_WIDTH];
-        UNROLL
-        for (uint i = 0; i < LANES_WIDTH; i++) total[i] = (spectrum)0.0f;
-        for (uint r = 0; r < ring_count; r++) {
+    for (uint i = 0; i < g->lane_count; i++)
+        for (uint k = 0; k < row; k++) out[i * 2u * row + k] = 0.0f;
+    for (uint r = 0; r < ring_count; r++) {
+        const lanes *of_ring = weights + r * directions;
+        const uint used_count = list_used(of_ring, directions, used);
+        for (uint block = 0; block < row / SPECTRUM_WIDTH && used_count > 0; block++) {
             spectrum sum[LANES_WIDTH];
             UNROLL
             for (uint i = 0; i < LANES_WIDTH; i++) sum[i] = (spectrum)0.0f;
-            for (uint d = 0; d < directions; d++) {
-                const lanes weight = weights[r * directions + d];
-                if (!lanes_any(weight != 0.0f)) continue;
-                const spectrum radiance = spectrum_load(sky + (size_t)d * row, block);
-                UNROLL
-                for (uint i = 0; i < LANES_WIDTH; i++) sum[i] += lane_of(&weight, i) * radiance;
+            add_ring((const float *)of_ring, used, used_count, row, sky, block, sum);
+            for (uint i = 0; i < g->lane_count; i++) {
+                global float *to = out + (size_t)i * 2u * row;
+                spectrum_store(spectrum_load(to, block) +
+                                   sum[i] * lobe_of_ring(emissivity, row, g->lobe[i], r, block),
+                               to, block);
             }
-            for (uint i = 0; i < LANES_WIDTH; i++)
-                total[i] += sum[i] * lobe_of_ring(emissivity, row, g->lobe[i], r, block);
         }
-        for (uint i = 0; i < g->lane_count; i++)
-            spectrum_store(total[i], out + (size_t)i * 2u * row, block);
     }
 }
 

@@ -15,7 +15,7 @@
 typedef float16 lanes;
 typedef int16 lanes_mask; /* of a comparison */
 typedef uint16 lanes_bits;
-#define lanes_any(mask) any(mask)
+#define lanes_any(mask) (lanes_bits_of(mask) != 0)
 #define LANES_SET(vector, lane, value) (((float *)&(vector))[lane] = (value))
 #elif LANES_WIDTH == 1
 typedef float lanes;
@@ -68,6 +68,9 @@ static inline void lanes_write(lanes from, float *to)
 /* A bit for every lane of a comparison. */
 static inline uint lanes_bits_of(lanes_mask mask)
 {
+#if defined(__AVX512DQ__) && !defined(RAY_PORTABLE)
+    return (ushort)__builtin_ia32_cvtd2mask512(mask);
+#else
     const int16 bit = {1 << 0, 1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
                        1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
     const int16 bits = mask & bit;
@@ -76,6 +79,7 @@ static inline uint lanes_bits_of(lanes_mask mask)
     const int2 two = four.lo | four.hi;
 
     return (uint)(two.x | two.y);
+#endif
 }
 
 #else
