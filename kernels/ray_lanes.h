@@ -173,14 +173,15 @@ static inline uint ray_lanes_reach(const ray_lanes *f, global const bvh_node *no
 INLINE int16 ray_lanes_enter(const ray_lanes *f, global const bvh_node *node, const uint child,
                              const uint coherent, const float16 limit, float16 *out_range)
 {
+    global const float *planes = node->low[0];
     float16 from = 0, to = limit;
 
     UNROLL
     for (int k = 0; k < 3; k++) {
         float16 a, b;
         if (coherent) {
-            a = node->low[0][f->near_plane[k] + child];
-            b = node->low[0][f->far_plane[k] + child];
+            a = planes[f->near_plane[k] + child];
+            b = planes[f->far_plane[k] + child];
         } else {
             const float16 low = node->low[k][child], high = node->high[k][child];
             const int16 negative = f->reciprocal[k] < 0.0f;

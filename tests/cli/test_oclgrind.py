@@ -17,7 +17,7 @@ import cases  # noqa: E402
 pytestmark = pytest.mark.skipif(not shutil.which("oclgrind"), reason="needs the package oclgrind")
 
 # Oclgrind 21.10 does not know some of what its compiler makes of optimised code.
-OCLGRIND = ["oclgrind", "--data-races", "--build-options", "-cl-opt-disable"]
+OCLGRIND = ["oclgrind", "--data-races", "--build-options", "-cl-opt-disable -DRAY_PORTABLE"]
 
 
 @pytest.fixture
