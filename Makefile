@@ -251,7 +251,11 @@ $(BUILD)/bench/exact_rays/brute_force.o: CFLAGS += -O3
 # Mitsuba is for this comparison alone.
 MITSUBA := mitsuba==3.9.1 numpy
 
-.PHONY: bench-mitsuba departures
+.PHONY: bench-mitsuba bench-spectra departures
+
+## bench-spectra: time 400 bands, and the visible against the infrared
+bench-spectra: deps all
+	$(PYTHON) bench/spectra.py
 
 ## departures: how much exact mode's departures from the thesis matter at the airport, and a picture
 departures: deps all

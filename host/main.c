@@ -2,6 +2,7 @@
 #include "command.h"
 
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -44,12 +45,17 @@ int main(int argc, char **argv)
         print_help(stderr);
         return EXIT_USAGE;
     }
-    if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) {
-        print_help(stdout);
-        return 0;
-    }
-    if (!strcmp(argv[1], "--version")) {
-        puts("radsig " RADSIG_VERSION);
+    const bool wants_version = !strcmp(argv[1], "--version");
+    if (wants_version || !strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) {
+        if (argc > 2) {
+            fprintf(stderr, "radsig: %s stands alone, found '%s' (radsig --help)\n", argv[1],
+                    argv[2]);
+            return EXIT_USAGE;
+        }
+        if (wants_version)
+            puts("radsig " RADSIG_VERSION);
+        else
+            print_help(stdout);
         return 0;
     }
     signal(SIGXFSZ, SIG_IGN); /* a limit on files is then an error of writing */

@@ -31,6 +31,14 @@ def test_the_version_is_the_makefile_s(program):
     assert done.returncode == 0 and done.stdout == f"radsig {version}\n"
 
 
+@pytest.mark.parametrize("option", ["--version", "--help", "-h"])
+def test_help_and_version_of_the_program_stand_alone(program, option):
+    done = program.run(option, "extra")
+
+    assert done.returncode == 2 and done.stdout == ""
+    assert f"{option} stands alone, found 'extra'" in done.stderr
+
+
 @pytest.mark.parametrize("arguments", [[], ["no-such-command"], ["--no-such-option"], ["-x"], [""]])
 def test_wrong_usage_of_the_program_ends_with_2(program, arguments):
     done = program.run(*arguments)

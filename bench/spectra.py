@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""What spectra cost at the airport: 400 bands, and a band of the visible against one of the infrared.
+See bench/README.md."""
+
+import json
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from departures import AIRPORT, PROGRAM, ROOT
+
+ROUNDS = 3
+SIZE = 128
+CASES = {
+    "400 bands": ("june24_1500z.rad", [8.0, 13.3], "count = 400\n"),
+    "visible": ("../atmosphere/june24_1500z_vis.radc", [0.4, 0.7], ""),
+    "infrared": ("june24_1500z.rad", [8.0, 13.3], ""),
+}
+
+
+def write_scene(folder, case):
+    """The airport with another database and band; its files by their full names."""
+    database, edges, more = CASES[case]
+    text = (AIRPORT / "scene.toml").read_text()
+    text = text.replace("june24_1500z.rad", str(AIRPORT / database))
+    text = text.replace('"airport.gdb"', f'"{AIRPORT / "airport.gdb"}"')
+    text = text.replace("../library", str(ROOT / "scenes/library"))
+    text = text.replace("wavelength_um = [8.0, 13.3]\n", f"wavelength_um = {edges}\n{more}")
+    (folder / "scene.toml").write_text(text)
+    return folder / "scene.toml"
+
+
+def kernels_s(folder, case, mode):
+    """Seconds by kernel of one render."""
+    out = folder / "out"
+    subprocess.run([PROGRAM, "render", write_scene(folder, case), "-o", out, "--mode", mode,
+                    "--size", f"{SIZE}x{SIZE}", "--planes", "material"], check=True)
+    times = json.loads((out / "airport.json").read_text())["timings_s"]
+    return {name.split()[1]: s for name, s in times.items() if name.startswith("kernel ")}
+
+
+def main():
+    wanted = [("400 bands", "exact"), *((c, m) for m in ("exact", "thesis")
+                                        for c in ("visible", "infrared"))]
+    runs = {each: [] for each in wanted}
+    with tempfile.TemporaryDirectory() as name:
+        for _ in range(ROUNDS):  # by turns, so that a busy machine is busy for all
+            for each in wanted:
+                runs[each].append(kernels_s(Path(name), *each))
+
+    def median(each, kernel=None):
+        return statistics.median(r[kernel] if kernel else sum(r.values()) for r in runs[each])
+
+    rate = 400 * SIZE**2 / median(wanted[0], "radiometry") / 1e9
+    print(f"400 bands: {rate:.4f} G pixel-bands/s in radiometry.cl")
+    for mode in ("exact", "thesis"):
+        ratio = median(("visible", mode)) / median(("infrared", mode))
+        print(f"{mode} mode: the visible costs {ratio:.2f} times the infrared, all kernels; "
+              f"radiometry alone {median(('visible', mode), 'radiometry'):.4f} s against "
+              f"{median(('infrared', mode), 'radiometry'):.4f} s")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
