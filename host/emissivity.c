@@ -1,25 +1,16 @@
 #include "emissivity.h"
 
-#include "record_file.h"
-
 #include <stdlib.h>
 
 static status read_angle(emissivity *e, record_file *file, int angle)
 {
     status rc = STATUS_OK;
-    double row[2];
+    double row[EMISSIVITY_WAVENUMBERS];
     long stated;
 
     TRY(record_file_count(file, angle, angle, &stated, "an angle in degrees"));
-    for (int i = 0; i < EMISSIVITY_WAVENUMBERS; i++) {
-        const int wavenumber = EMISSIVITY_FIRST_CM1 - i * EMISSIVITY_STEP_CM1;
-        TRY(record_file_numbers(file, 2, row, "a wavenumber and an emissivity"));
-        if (row[0] != (double)wavenumber || row[1] < 0.0 || row[1] > 1.0) {
-            rc = record_file_reject(file, "%d and an emissivity from 0 to 1", wavenumber);
-            goto out;
-        }
-        e->value[angle][i] = (float)row[1];
-    }
+    TRY(wavenumber_rows_read(file, "an emissivity", 1.0, row));
+    for (int i = 0; i < EMISSIVITY_WAVENUMBERS; i++) e->value[angle][i] = (float)row[i];
 out:
     return rc;
 }

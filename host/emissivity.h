@@ -2,14 +2,13 @@
 #ifndef EMISSIVITY_H
 #define EMISSIVITY_H
 
-#include "status.h"
+#include "wavenumber_rows.h"
 
 enum {
     EMISSIVITY_ANGLES = 91, /* 0, 1, .. 90 degrees from the normal */
-    EMISSIVITY_WAVENUMBERS =
-        396, /* 39850, 39750, .. 350 cm-1: .25 to 29 um, ascending wavelength */
-    EMISSIVITY_FIRST_CM1 = 39850,
-    EMISSIVITY_STEP_CM1 = 100
+    EMISSIVITY_WAVENUMBERS = WAVENUMBER_ROWS,
+    EMISSIVITY_FIRST_CM1 = WAVENUMBER_ROWS_FIRST_CM1,
+    EMISSIVITY_STEP_CM1 = WAVENUMBER_ROWS_STEP_CM1
 };
 
 typedef struct emissivity {

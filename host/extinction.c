@@ -1,7 +1,5 @@
 #include "extinction.h"
 
-#include "record_file.h"
-
 #include <math.h>
 #include <stdlib.h>
 
@@ -11,21 +9,13 @@
 static status read_rows(extinction *e, record_file *file)
 {
     status rc = STATUS_OK;
-    double broad_band_per_km, row[2];
+    double broad_band_per_km;
 
     TRY(record_file_number(file, 0.0, LARGEST_PER_KM, &broad_band_per_km,
                            "the broad-band extinction per km"));
     e->broad_band_per_m = broad_band_per_km * PER_KM;
-    for (int i = 0; i < EXTINCTION_WAVENUMBERS; i++) {
-        const int wavenumber = EXTINCTION_FIRST_CM1 - i * EXTINCTION_STEP_CM1;
-        TRY(record_file_numbers(file, 2, row, "a wavenumber and an extinction per km"));
-        if (row[0] != (double)wavenumber || row[1] < 0.0 || row[1] > LARGEST_PER_KM) {
-            rc = record_file_reject(file, "%d and an extinction per km from 0 to %g", wavenumber,
-                                    LARGEST_PER_KM);
-            goto out;
-        }
-        e->per_m[i] = row[1] * PER_KM;
-    }
+    TRY(wavenumber_rows_read(file, "an extinction per km", LARGEST_PER_KM, e->per_m));
+    for (int i = 0; i < EXTINCTION_WAVENUMBERS; i++) e->per_m[i] *= PER_KM;
 out:
     return rc;
 }

@@ -3,12 +3,12 @@
 #ifndef EXTINCTION_H
 #define EXTINCTION_H
 
-#include "status.h"
+#include "wavenumber_rows.h"
 
 enum {
-    EXTINCTION_WAVENUMBERS = 396, /* 39850, 39750, .. 350 cm-1, ascending wavelength */
-    EXTINCTION_FIRST_CM1 = 39850,
-    EXTINCTION_STEP_CM1 = 100
+    EXTINCTION_WAVENUMBERS = WAVENUMBER_ROWS,
+    EXTINCTION_FIRST_CM1 = WAVENUMBER_ROWS_FIRST_CM1,
+    EXTINCTION_STEP_CM1 = WAVENUMBER_ROWS_STEP_CM1
 };
 
 /* Transmission over z metres: exp(-value z). */
