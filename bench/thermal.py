@@ -1,9 +1,13 @@
 #!/usr/bin/env python3
-"""Times the thermal kernel on a million different facets of the thesis' Table D-1: 48 h at 15 min,
-slabs of 8 nodes and lumps, each kind for itself and both together."""
+"""Times temperatures: the kernel alone on facets that all differ, 48 h at 15 min, with the materials of
+the thesis' Table D-1; then the airport at 512 x 512 as radsig renders it. A facet-step is one record of
+the weather, four sub-steps in the kernel. See bench/README.md."""
+import json
 import pathlib
 import statistics
+import subprocess
 import sys
+import tempfile
 import time
 
 import numpy as np
@@ -14,21 +18,24 @@ sys.path += [str(ROOT / "tests"), str(ROOT / "tests/kernels")]
 import table_d1  # noqa: E402
 from thermal_reference import FACET, FORCING, MATERIAL, SPAN  # noqa: E402
 
-FACETS, STEPS, STEP_S, LANES, LOCAL, RUNS = 1 << 20, 193, 900.0, 16, 64, 5
+STEPS, STEP_S, LANES, LOCAL, RUNS = 193, 900.0, 16, 64, 5
+MILLION, AIRPORT = 1 << 20, 54545
+SCENE = ROOT / "scenes/airport/scene.toml"
 
 
-def bodies(rows):
+def bodies(rows, count):
     random = np.random.default_rng(1)
-    facets, materials = np.zeros(FACETS, FACET), np.zeros(len(rows), MATERIAL)
-    normal = random.normal(size=(FACETS, 3))
+    facets, materials = np.zeros(count, FACET), np.zeros(len(rows), MATERIAL)
+    normal = random.normal(size=(count, 3))
     facets["normal"] = normal / np.linalg.norm(normal, axis=1)[:, None]
-    facets["material"] = np.arange(FACETS) % len(rows)
+    facets["material"] = np.arange(count) % len(rows)
     facets["thickness_m"] = 0.01 * np.array([r.thickness_cm for r in rows])[facets["material"]]
     for i, r in enumerate(rows):
         materials[i] = (1000 * r.density_g_cm3, 4184 * r.specific_heat_cal_g_c,
                         0.11622 * r.conductivity_cal_cm_h_c, r.visible_emissivity,
                         r.thermal_emissivity, r.exposed_area)
-    return facets, materials
+    lump = materials["exposed_area"][facets["material"]] >= 0
+    return facets[np.argsort(lump, kind="stable")], materials  # slabs first, as radsig lays them
 
 
 def weather():
@@ -43,40 +50,64 @@ def weather():
     return forcing
 
 
-def measure(context, kernel, rows):
-    """Seconds of each run, its temperatures kept on the device."""
-    facets, materials = bodies(rows)
+def measure(context, kernel, rows, count=MILLION):
+    """(seconds, seconds of processor time) of each run, temperatures kept on the device."""
+    facets, materials = bodies(rows, count)
     span = np.zeros(1, SPAN)
-    span[0] = (FACETS, STEPS - 1, 1, 3, 1.0, STEP_S, 96, STEPS)
-    lit = np.random.default_rng(2).integers(0, 2**32, (3, FACETS), np.uint32)
+    span[0] = (count, STEPS - 1, 1, 3, 1.0, STEP_S, 96, STEPS)
+    lit = np.random.default_rng(2).integers(0, 2**32, (3, count), np.uint32)
     memory = [cl.Buffer(context, cl.mem_flags.COPY_HOST_PTR, hostbuf=a)
               for a in (facets, materials, weather(), lit)]
-    out = cl.Buffer(context, cl.mem_flags.WRITE_ONLY, 4 * FACETS)
-    seconds = []
+    out = cl.Buffer(context, cl.mem_flags.WRITE_ONLY, 4 * count)
+    groups = -(-count // LANES)
+    runs = []
     with cl.CommandQueue(context) as queue:
         for _ in range(RUNS + 1):
-            start = time.perf_counter()
-            kernel(queue, (FACETS // LANES,), (LOCAL,), span[0], *memory, np.uint32(0), None, out)
+            start = time.perf_counter(), time.process_time()
+            kernel(queue, (-(-groups // LOCAL) * LOCAL,), (LOCAL,), span[0], *memory, np.uint32(0),
+                   None, out)
             queue.finish()
-            seconds.append(time.perf_counter() - start)
-    return seconds[1:]
+            runs.append((time.perf_counter() - start[0], time.process_time() - start[1]))
+    return runs[1:]
+
+
+def report(name, runs, count, compute_units):
+    seconds, processor = (statistics.median(column) for column in zip(*runs))
+    rate = count * (STEPS - 1) / 1e6
+    print(f"{name}: {seconds:.2f} s ({min(r[0] for r in runs):.2f} to {max(r[0] for r in runs):.2f}),"
+          f" {rate / seconds:.0f} M facet-steps/s; {processor:.2f} s of processor time, which is"
+          f" {rate * compute_units / processor:.0f} M/s on {compute_units} idle ones")
+
+
+def render(model):
+    """What the airport's temperatures take, of radsig's own report."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([ROOT / "build/radsig", "render", SCENE, "-o", folder, "--size", "512x512",
+                        "--set", f'render.thermal="{model}"'], check=True)
+        times = json.loads((pathlib.Path(folder) / "airport.json").read_text())["timings_s"]
+    kernels = {k: t for k, t in times.items()
+               if k.split()[-1] in ("thermal", "layered", "sun_history", "conduction")}
+    print(f"airport, {model}: facets {times['host temperatures']:.2f} s, sun rays included; facets and"
+          " pixels together: " + ", ".join(f"{k} {t:.2f} s" for k, t in kernels.items()))
 
 
 def main():
     device = [d for p in cl.get_platforms() for d in p.get_devices()][0]
     context = cl.Context([device])
+    start = time.perf_counter()
     source = (ROOT / "kernels/thermal.cl").read_text()
     program = cl.Program(context, source).build(f"-cl-std=CL1.2 -I {ROOT / 'kernels'}")
     kernel = program.thermal
+    print(f"{device.name}, {device.max_compute_units} compute units, {STEPS - 1} steps; "
+          f"the kernel was built in {time.perf_counter() - start:.2f} s")
     slabs = [r for r in table_d1.ROWS if r.exposed_area < 0]
     lumps = [r for r in table_d1.ROWS if r.exposed_area >= 0]
-    print(f"{device.name}, {device.max_compute_units} compute units, {FACETS} facets, "
-          f"{STEPS - 1} steps")
-    for name, rows in (("slabs", slabs), ("lumps", lumps), ("mixed", table_d1.ROWS)):
-        seconds = measure(context, kernel, rows)
-        median = statistics.median(seconds)
-        print(f"{name}: {median:.2f} s (from {min(seconds):.2f} to {max(seconds):.2f}), "
-              f"{FACETS * (STEPS - 1) / median / 1e6:.0f} M facet-steps/s")
+    for name, rows, count in (("a million slabs", slabs, MILLION), ("a million lumps", lumps, MILLION),
+                              ("a million of both", table_d1.ROWS, MILLION),
+                              (f"{AIRPORT} slabs", slabs, AIRPORT)):
+        report(name, measure(context, kernel, rows, count), count, device.max_compute_units)
+    for model in ("therm", "layered"):
+        render(model)
 
 
 if __name__ == "__main__":

@@ -183,14 +183,15 @@ static status pass(exchange *x, bool is_first)
     const thermal_span span = span_of(x, x->facet_count);
     const device_shape shape = {{(x->facet_count + LANES - 1) / LANES, 1}, 4};
     const uint32_t received = is_first ? 0 : t->received_columns, n = span.facet_count;
+    const uint32_t steps = span.step_count;
     device_memory facets = NULL;
 
     TRY(upload_layered(t, x->facet, x->facet_count, &facets));
     TRY(device_run(t->dev, "layered", shape, ARG(span), ARG(facets), ARG(t->forcing), ARG(x->lit),
                    ARG(t->power_materials), ARG(t->power), ARG(t->lateral_columns),
                    ARG(t->lateral_w_m2), ARG(received), ARG(t->received_w_m2), ARG(x->sent_w_m2)));
-    TRY(device_run(t->dev, "radiosity", shape2(n, t->step_count), ARG(n), ARG(facets),
-                   ARG(t->forcing), ARG(received), ARG(t->received_w_m2), ARG(x->sent_w_m2)));
+    TRY(device_run(t->dev, "radiosity", shape1(n), ARG(n), ARG(steps), ARG(facets), ARG(t->forcing),
+                   ARG(received), ARG(t->received_w_m2), ARG(x->sent_w_m2)));
     const device_memory old = t->received_w_m2;
     t->received_w_m2 = x->before_w_m2;
     x->before_w_m2 = old;

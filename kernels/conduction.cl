@@ -80,14 +80,14 @@ static void open_step(const patch_run *p, uint first, uint step)
     group->before = before;
     group->after = layered_load_at(w, &body, step);
     group->elimination = layered_eliminate(&body, back.w_m2_k,
-                                           w.span.step_s / (float)layered_sub_steps(w.span.step_s));
+                                           w.span.step_s / (float)thermal_sub_steps(w.span.step_s));
 }
 
 /* Goes through the step that ends at `step`; out_w_m2 as conduction.cl has it. */
 static void go(const patch_run *p, uint step, global float *out_w_m2)
 {
     const thermal_span span = p->world.span;
-    const int count = layered_sub_steps(span.step_s);
+    const int count = thermal_sub_steps(span.step_s);
 
     for (uint first = p->first; first < p->end; first += LANES_WIDTH) open_step(p, first, step);
     for (int i = 0; i < count; i++) {

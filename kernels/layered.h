@@ -146,8 +146,8 @@ static inline thermal_flux layered_latent(const layered_body *body, layered_air 
 typedef struct layered_elimination {
     lanes passed[LAYERED_NODES + 1]; /* share of what stands behind that node j passes on */
     lanes inverse[LAYERED_NODES];
-    lanes front_taken; /* what all nodes take up per kelvin of node 0 */
-    lanes back_slope;
+    lanes front_taken;          /* what all nodes take up per kelvin of node 0 */
+    lanes back_slope, back_way; /* and 1 / what the back's face gives inwards and outwards */
 } layered_elimination;
 
 /* As thermal_eliminate, for unequal nodes. */
@@ -160,7 +160,8 @@ static inline layered_elimination layered_eliminate(const layered_body *body, la
     lanes taken;
 
     e.back_slope = back_slope;
-    e.passed[LAYERED_NODES] = body->is_stated != none ? one : behind / (behind + back_slope);
+    e.back_way = 1.0f / (behind + back_slope);
+    e.passed[LAYERED_NODES] = body->is_stated != none ? one : behind * e.back_way;
     taken = body->capacity[last] / step_s +
             (body->is_stated != none ? behind : back_slope * e.passed[LAYERED_NODES]);
     for (int j = last; j > 0; j--) {
@@ -177,6 +178,7 @@ static inline layered_elimination layered_eliminate(const layered_body *body, la
 /* What the front takes in, linear about its temperature at the start of a step. */
 typedef struct layered_front {
     thermal_flux all, latent;
+    lanes way;   /* 1 / what the face gives to node 0 and outwards, per kelvin */
     lanes share; /* of what reaches the face that goes on to node 0 */
 } layered_front;
 
@@ -189,7 +191,8 @@ static inline layered_front layered_front_of(const layered_state *s, const layer
     front.latent = layered_latent(body, air, s->front_k, s->film_kg_m2);
     front.all.w_m2 -= front.latent.w_m2;
     front.all.w_m2_k += front.latent.w_m2_k;
-    front.share = body->conductance[0] / (body->conductance[0] + front.all.w_m2_k);
+    front.way = 1.0f / (body->conductance[0] + front.all.w_m2_k);
+    front.share = body->conductance[0] * front.way;
     return front;
 }
 
@@ -229,23 +232,24 @@ static inline void layered_step(layered_state *s, const layered_body *body,
     right[last] = body->conductance[last] * (s->node_k[last - 1] - s->node_k[last]) + from_back +
                   body->lateral_share[last] * lateral_w_m2;
     for (int j = last - 1; j > 0; j--)
-        right[j] = body->conductance[j] * (s->node_k[j - 1] - s->node_k[j]) +
-                   body->conductance[j + 1] * (s->node_k[j + 1] - s->node_k[j]) +
-                   body->lateral_share[j] * lateral_w_m2 + e->passed[j + 1] * right[j + 1];
+        right[j] = fma(e->passed[j + 1], right[j + 1],
+                       body->conductance[j] * (s->node_k[j - 1] - s->node_k[j]) +
+                           body->conductance[j + 1] * (s->node_k[j + 1] - s->node_k[j]) +
+                           body->lateral_share[j] * lateral_w_m2);
     right[0] = body->conductance[1] * (s->node_k[1] - s->node_k[0]) +
                body->lateral_share[0] * lateral_w_m2 + e->passed[1] * right[1] +
                front.share * (front.all.w_m2 + front.all.w_m2_k * (s->front_k - s->node_k[0]));
     rise = right[0] / (e->front_taken + front.share * front.all.w_m2_k);
     s->node_k[0] += rise;
     for (int j = 1; j <= last; j++) {
-        rise = right[j] * e->inverse[j] + e->passed[j] * rise;
+        rise = fma(e->passed[j], rise, right[j] * e->inverse[j]);
         s->node_k[j] += rise;
     }
-    s->front_k += (front.all.w_m2 - before * (s->front_k - s->node_k[0])) * front.share / before;
-    s->back_k = body->is_stated != none
-                    ? body->back_k
-                    : s->back_k + (back.w_m2 - behind * (s->back_k - s->node_k[last])) *
-                                      e->passed[LAYERED_NODES] / behind;
+    s->front_k += (front.all.w_m2 - before * (s->front_k - s->node_k[0])) * front.way;
+    s->back_k =
+        body->is_stated != none
+            ? body->back_k
+            : s->back_k + (back.w_m2 - behind * (s->back_k - s->node_k[last])) * e->back_way;
     layered_step_film(s, body, &front, old_front_k, air, step_s);
 }
 
@@ -276,12 +280,6 @@ static inline lanes layered_lateral_gain(const layered_body *body, const layered
     return sum;
 }
 
-/* Sub-steps of a step of the weather: an even number. */
-static inline int layered_sub_steps(float step_s)
-{
-    return 2 * (int)ceil(0.5f * step_s / THERMAL_SUB_STEP_S);
-}
-
 /* Goes from one record of the weather to the next. Humidity, rain and day are held like the sun.
  *   lateral_w_m2   heat along the facet in the first and in the second half */
 static inline void layered_advance(layered_state *state, const layered_body *body,
@@ -289,7 +287,7 @@ static inline void layered_advance(layered_state *state, const layered_body *bod
                                    layered_air air_before, layered_air air_after,
                                    const lanes lateral_w_m2[2], float step_s)
 {
-    const int count = layered_sub_steps(step_s);
+    const int count = thermal_sub_steps(step_s);
     const thermal_flux back = thermal_back_flux(&body->face, before, state->back_k);
     const layered_elimination e = layered_eliminate(body, back.w_m2_k, step_s / (float)count);
 

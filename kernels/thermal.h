@@ -231,18 +231,23 @@ static inline thermal_state thermal_start(const thermal_body *body, const therma
 }
 
 /* One node: T <- Teq + (T - Teq) exp(-Lambda dt / C), exact for a constant load, so that thin
- * sheets need no shorter steps. */
+ * sheets need no shorter steps.
+ *   step_k_m2_w   dt / C */
 static inline void thermal_step_lump(thermal_state *state, const thermal_body *body,
-                                     const thermal_load *load, float step_s)
+                                     const thermal_load *load, lanes step_k_m2_w)
 {
     const thermal_flux front = thermal_front_flux(body, load, state->front_k);
-    const thermal_flux back = thermal_back_flux(body, load, state->front_k);
-    const lanes flux_w_m2 = front.w_m2 + back.w_m2, lambda = front.w_m2_k + back.w_m2_k;
-    const lanes steps = step_s / body->capacity_j_m2_k, decay = lambda * steps;
+    thermal_flux all = front;
 
-    state->front_k +=
-        decay > (lanes)1e-4f ? -expm1(-decay) * flux_w_m2 / lambda : flux_w_m2 * steps;
-    state->back_k = state->front_k;
+    if (lanes_any(body->back > (lanes)0.0f)) {
+        const thermal_flux back = thermal_back_flux(body, load, state->front_k);
+        all.w_m2 += back.w_m2;
+        all.w_m2_k += back.w_m2_k;
+    }
+    const lanes decay = all.w_m2_k * step_k_m2_w;
+    /* 1 - exp is good to 1e-7 of the way to the balance, far below what 300 K are rounded to. */
+    const lanes gain = decay > (lanes)1e-4f ? (1.0f - exp(-decay)) / all.w_m2_k : step_k_m2_w;
+    state->front_k += gain * all.w_m2;
 }
 
 /* Eight equal nodes, backward Euler, solved for the rises so that single precision suffices:
@@ -254,6 +259,7 @@ static inline void thermal_step_lump(thermal_state *state, const thermal_body *b
 typedef struct thermal_elimination {
     lanes between, half_way;      /* G, and from a face to its node */
     lanes back_slope;             /* of the back's flux */
+    lanes back_way;               /* 1 / (half_way + back_slope) */
     lanes passed[THERMAL_NODES];  /* G / (G + taken_j), the last with the back's face */
     lanes inverse[THERMAL_NODES]; /* 1 / (G + taken_j); of node 0: taken_0 itself */
 } thermal_elimination;
@@ -268,52 +274,63 @@ static inline thermal_elimination thermal_eliminate(const thermal_body *body, la
     e.between = body->conductance_w_m2_k * (float)THERMAL_NODES;
     e.half_way = 2.0f * e.between;
     e.back_slope = back_slope;
-    taken = stored + e.half_way * back_slope / (e.half_way + back_slope);
+    e.back_way = 1.0f / (e.half_way + back_slope);
+    e.passed[0] = e.half_way * e.back_way;
+    taken = stored + e.passed[0] * back_slope;
     for (int j = THERMAL_NODES - 1; j > 0; j--) {
         e.inverse[j] = 1.0f / (e.between + taken);
         e.passed[j] = e.between * e.inverse[j];
         taken = stored + taken * e.passed[j];
     }
     e.inverse[0] = taken;
-    e.passed[0] = e.half_way / (e.half_way + back_slope);
     return e;
 }
 
+/* The front's face has no capacity: with its flux F - S (T - T_front) and H from it to node 0, node 0
+ * rises by (right_0 (H + S) + H F') / (taken_0 (H + S) + H S). One division serves both. */
 static inline void thermal_step_slab(thermal_state *state, const thermal_body *body,
                                      const thermal_elimination *e, const thermal_load *load)
 {
     const int last = THERMAL_NODES - 1;
     const thermal_flux front = thermal_front_flux(body, load, state->front_k);
-    const thermal_flux back = thermal_back_flux(body, load, state->back_k);
-    const lanes front_share = e->half_way / (e->half_way + front.w_m2_k);
-    const lanes back_excess = state->back_k - state->node_k[last];
-    const lanes front_excess = state->front_k - state->node_k[0];
+    const lanes both = e->half_way + front.w_m2_k;
+    const lanes all = e->inverse[0] * both + e->half_way * front.w_m2_k;
+    const lanes quotient = 1.0f / (both * all);
+    thermal_flux back = {0.0f, 0.0f};
     lanes right[THERMAL_NODES], rise;
 
-    right[last] = e->between * (state->node_k[last - 1] - state->node_k[last]) +
-                  e->passed[0] * (back.w_m2 + e->back_slope * back_excess);
+    if (lanes_any(body->back > (lanes)0.0f)) back = thermal_back_flux(body, load, state->back_k);
+    right[last] =
+        e->between * (state->node_k[last - 1] - state->node_k[last]) +
+        e->passed[0] * (back.w_m2 + e->back_slope * (state->back_k - state->node_k[last]));
     for (int j = last - 1; j > 0; j--)
-        right[j] = e->between * ((state->node_k[j - 1] - state->node_k[j]) +
-                                 (state->node_k[j + 1] - state->node_k[j])) +
-                   e->passed[j + 1] * right[j + 1];
-    right[0] = e->between * (state->node_k[1] - state->node_k[0]) + e->passed[1] * right[1] +
-               front_share * (front.w_m2 + front.w_m2_k * front_excess);
-    rise = right[0] / (e->inverse[0] + front_share * front.w_m2_k);
+        right[j] = fma(e->passed[j + 1], right[j + 1],
+                       e->between * ((state->node_k[j - 1] - state->node_k[j]) +
+                                     (state->node_k[j + 1] - state->node_k[j])));
+    right[0] = fma(e->passed[1], right[1], e->between * (state->node_k[1] - state->node_k[0]));
+    rise = fma(right[0], both,
+               e->half_way * (front.w_m2 + front.w_m2_k * (state->front_k - state->node_k[0]))) *
+           (quotient * both);
     state->node_k[0] += rise;
     for (int j = 1; j <= last; j++) {
-        rise = right[j] * e->inverse[j] + e->passed[j] * rise;
+        rise = fma(e->passed[j], rise, right[j] * e->inverse[j]);
         state->node_k[j] += rise;
     }
-    state->front_k += (front.w_m2 - e->half_way * (state->front_k - state->node_k[0])) *
-                      front_share / e->half_way;
-    state->back_k += (back.w_m2 - e->half_way * (state->back_k - state->node_k[last])) *
-                     e->passed[0] / e->half_way;
+    state->front_k +=
+        (front.w_m2 - e->half_way * (state->front_k - state->node_k[0])) * (quotient * all);
+    state->back_k +=
+        (back.w_m2 - e->half_way * (state->back_k - state->node_k[last])) * e->back_way;
 }
 
 static inline lanes thermal_sub_direct(const thermal_load *before, const thermal_load *after, int i,
                                        int count)
 {
     return 2 * i < count ? before->direct_w_m2 : after->direct_w_m2;
+}
+
+static inline int thermal_sub_steps(float step_s)
+{
+    return 2 * (int)ceil(0.5f * step_s / THERMAL_SUB_STEP_S);
 }
 
 /* Goes from one record of the weather to the next. The slab's implicit step takes the load at its
@@ -336,12 +353,15 @@ static inline void thermal_advance_lump(thermal_state *state, const thermal_body
                                         const thermal_load *before, const thermal_load *after,
                                         float step_s, int count)
 {
+    const lanes step_k_m2_w = step_s / (float)count / body->capacity_j_m2_k;
+
     for (int i = 0; i < count; i++) {
         const thermal_load load =
             thermal_load_between(before, after, ((float)i + 0.5f) / (float)count,
                                  thermal_sub_direct(before, after, i, count));
-        thermal_step_lump(state, body, &load, step_s / (float)count);
+        thermal_step_lump(state, body, &load, step_k_m2_w);
     }
+    state->back_k = state->front_k;
 }
 
 /* Slabs and lumps side by side: each goes its own way, the other's is not taken. */
@@ -350,7 +370,7 @@ static inline void thermal_advance(thermal_state *state, const thermal_body *bod
                                    float step_s)
 {
     const lanes none = 0.0f;
-    const int count = 2 * (int)ceil(0.5f * step_s / THERMAL_SUB_STEP_S);
+    const int count = thermal_sub_steps(step_s);
     thermal_state as_lump = *state;
 
     if (lanes_any(body->slab == none))
