@@ -1,7 +1,7 @@
 #include "bodies.h"
 
 #include "../kernels/cloud.h"
-#include "bvh.h"
+#include "bvh_memory.h"
 #include "scene.h"
 
 #include <math.h>
@@ -12,7 +12,8 @@ struct bodies {
     device *dev;
     const scene *s;
     crossing_world world;
-    device_memory node, block, medium, level;
+    bvh_memory tree;
+    device_memory medium, level;
 };
 
 static bool is_body(const scene *s, uint32_t facet)
@@ -50,9 +51,7 @@ static status upload_tree(bodies *b)
                                .position = (const float(*)[3])g->position};
     TRY(bvh_build(&tree, &source));
     const bvh_tables *tables = bvh_look(tree);
-    TRY(device_allocate(b->dev, &b->node, tables->node_count * sizeof *tables->node, tables->node));
-    TRY(device_allocate(b->dev, &b->block, tables->block_count * sizeof *tables->block,
-                        tables->block));
+    TRY(bvh_memory_take(&b->tree, b->dev, tree));
     memcpy(b->world.low, tables->low, sizeof b->world.low);
     memcpy(b->world.high, tables->high, sizeof b->world.high);
 out:
@@ -131,8 +130,7 @@ void bodies_free(bodies *b)
     if (!b) return;
     device_release(b->level);
     device_release(b->medium);
-    device_release(b->block);
-    device_release(b->node);
+    bvh_memory_free(&b->tree);
     free(b);
 }
 
@@ -143,12 +141,12 @@ crossing_world bodies_world(const bodies *b)
 
 device_memory bodies_nodes(const bodies *b)
 {
-    return b->node;
+    return b->tree.node;
 }
 
 device_memory bodies_blocks(const bodies *b)
 {
-    return b->block;
+    return b->tree.block;
 }
 
 device_memory bodies_medium(const bodies *b)

@@ -1,5 +1,7 @@
 #include "ray_scene.h"
 
+#include "bvh_memory.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,7 +10,7 @@ static const float offset_per_m = 9.5367431640625e-7f;
 
 struct ray_scene {
     device *dev;
-    device_memory node, block;
+    bvh_memory tree;
     world_record world;
     bool camera_culls;
 };
@@ -33,10 +35,7 @@ status ray_scene_open(ray_scene **out, device *dev, const bvh *tree)
     scene->dev = dev;
     scene->world.ground_facet = RECORD_NONE;
     scene->world.offset_m = offset_per_m * reach(tables);
-    TRY(device_allocate(dev, &scene->node, tables->node_count * sizeof *tables->node,
-                        tables->node));
-    TRY(device_allocate(dev, &scene->block, tables->block_count * sizeof *tables->block,
-                        tables->block));
+    TRY(bvh_memory_take(&scene->tree, dev, tree));
     *out = scene;
     scene = NULL;
 out:
@@ -47,8 +46,7 @@ out:
 void ray_scene_free(ray_scene *scene)
 {
     if (!scene) return;
-    device_release(scene->block);
-    device_release(scene->node);
+    bvh_memory_free(&scene->tree);
     free(scene);
 }
 
@@ -71,12 +69,12 @@ device *ray_scene_device(const ray_scene *scene)
 
 device_memory ray_scene_nodes(const ray_scene *scene)
 {
-    return scene->node;
+    return scene->tree.node;
 }
 
 device_memory ray_scene_blocks(const ray_scene *scene)
 {
-    return scene->block;
+    return scene->tree.block;
 }
 
 world_record ray_scene_world(const ray_scene *scene)
@@ -97,7 +95,8 @@ status ray_scene_primary(const ray_scene *scene, const camera_record *camera, ui
 
     world.cull_back = scene->camera_culls;
     return device_run(scene->dev, "primary", shape, ARG(count), ARG(first_pixel), ARG(columns),
-                      ARG(*camera), ARG(world), ARG(scene->node), ARG(scene->block), ARG(out_hit));
+                      ARG(*camera), ARG(world), ARG(scene->tree.node), ARG(scene->tree.block),
+                      ARG(out_hit));
 }
 
 /* A work-item has a batch of rays where it has packets; kernels/ray_order.h. */
@@ -113,7 +112,7 @@ status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t stride, 
                        device_memory out_range, device_memory out_facet)
 {
     return device_run(scene->dev, "trace", batches(scene->dev, count), ARG(count), ARG(stride),
-                      ARG(scene->world), ARG(scene->node), ARG(scene->block), ARG(rays),
+                      ARG(scene->world), ARG(scene->tree.node), ARG(scene->tree.block), ARG(rays),
                       ARG(out_range), ARG(out_facet));
 }
 
@@ -121,6 +120,6 @@ status ray_scene_occluded(const ray_scene *scene, uint32_t count, uint32_t strid
                           device_memory rays, device_memory out_met)
 {
     return device_run(scene->dev, "occluded", batches(scene->dev, count), ARG(count), ARG(stride),
-                      ARG(scene->world), ARG(scene->node), ARG(scene->block), ARG(rays),
+                      ARG(scene->world), ARG(scene->tree.node), ARG(scene->tree.block), ARG(rays),
                       ARG(out_met));
 }

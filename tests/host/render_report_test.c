@@ -14,110 +14,113 @@ static void write_report(const render_report *report)
     output_folder_free(folder);
 }
 
+static const char ordered[] = "{\n"
+                              "  \"program\": \"radsig " RADSIG_VERSION "\",\n"
+                              "  \"scene\": \"airport\",\n"
+                              "  \"scene_path\": \"scenes/airport/scene.toml\",\n"
+                              "  \"mode\": \"exact\",\n"
+                              "  \"thermal\": \"therm\",\n"
+                              "  \"time\": \"1987-06-24T15:00:00Z\",\n"
+                              "  \"site\": {\n"
+                              "    \"latitude_deg\": 39.77333333333333,\n"
+                              "    \"longitude_deg\": -84.1,\n"
+                              "    \"altitude_m\": 250\n"
+                              "  },\n"
+                              "  \"device\": {\n"
+                              "    \"platform\": \"Portable Computing Language\",\n"
+                              "    \"name\": \"cpu\",\n"
+                              "    \"version\": \"OpenCL 3.0\"\n"
+                              "  },\n"
+                              "  \"image\": {\n"
+                              "    \"columns\": 512,\n"
+                              "    \"rows\": 384\n"
+                              "  },\n"
+                              "  \"bands\": [\n"
+                              "    {\n"
+                              "      \"name\": \"lwir\",\n"
+                              "      \"wavelength_min_um\": 8,\n"
+                              "      \"wavelength_max_um\": 13.3,\n"
+                              "      \"gain\": 0.1,\n"
+                              "      \"offset\": 0\n"
+                              "    }\n"
+                              "  ],\n"
+                              "  \"planes\": [\n"
+                              "    {\n"
+                              "      \"name\": \"temperature_c\",\n"
+                              "      \"unit\": \"C\"\n"
+                              "    },\n"
+                              "    {\n"
+                              "      \"name\": \"material\",\n"
+                              "      \"unit\": null\n"
+                              "    }\n"
+                              "  ],\n"
+                              "  \"materials\": [\n"
+                              "    {\n"
+                              "      \"number\": 22,\n"
+                              "      \"name\": \"grass\"\n"
+                              "    }\n"
+                              "  ],\n"
+                              "  \"settings\": {\n"
+                              "    \"seed\": 7,\n"
+                              "    \"zenith\": \"cosine\"\n"
+                              "  },\n"
+                              "  \"inputs\": [\n"
+                              "    {\n"
+                              "      \"path\": \"summer.rad\",\n"
+                              "      \"sha256\": \"00ff\",\n"
+                              "      \"bytes\": 5000000000\n"
+                              "    }\n"
+                              "  ],\n"
+                              "  \"warnings\": [\n"
+                              "    \"one\",\n"
+                              "    \"two\"\n"
+                              "  ],\n"
+                              "  \"timings_s\": {\n"
+                              "    \"rays\": 0.2500\n"
+                              "  }\n"
+                              "}\n";
+
+static const render_report_band one_band = {"lwir", 8.0, 13.3, 0.1, 0.0};
+static const image_plane one_plane[] = {{"temperature_c", "C", 0.0, 0.0, false},
+                                        {"material", NULL, 0.0, 0.0, true}};
+static const image_label one_material = {22, "grass"};
+static const render_report_setting one_setting[] = {{"seed", NULL, 7.0}, {"zenith", "cosine", 0.0}};
+static const render_report_input one_input = {"summer.rad", "00ff", 5000000000u};
+static const render_report_stage one_stage = {"rays", 0.25};
+static const render_report full_report = {.scene = "airport",
+                                          .scene_path = "scenes/airport/scene.toml",
+                                          .mode = "exact",
+                                          .thermal = "therm",
+                                          .time = "1987-06-24T15:00:00Z",
+                                          .latitude_deg = 39.77333333333333,
+                                          .longitude_deg = -84.1,
+                                          .altitude_m = 250.0,
+                                          .platform = "Portable Computing Language",
+                                          .device = "cpu",
+                                          .device_version = "OpenCL 3.0",
+                                          .columns = 512,
+                                          .rows = 384,
+                                          .band = &one_band,
+                                          .band_count = 1,
+                                          .plane = one_plane,
+                                          .plane_count = 2,
+                                          .material = &one_material,
+                                          .material_count = 1,
+                                          .setting = one_setting,
+                                          .setting_count = 2,
+                                          .input = &one_input,
+                                          .input_count = 1,
+                                          .warnings = "one\ntwo\n",
+                                          .stage = &one_stage,
+                                          .stage_count = 1};
+
 static void a_report_has_its_members_in_their_order(void **state)
 {
-    const render_report_band band = {"lwir", 8.0, 13.3, 0.1, 0.0};
-    const image_plane plane[] = {{"temperature_c", "C", 0.0, 0.0, false},
-                                 {"material", NULL, 0.0, 0.0, true}};
-    const image_label material = {22, "grass"};
-    const render_report_setting setting[] = {{"seed", NULL, 7.0}, {"zenith", "cosine", 0.0}};
-    const render_report_input input = {"summer.rad", "00ff", 5000000000u};
-    const render_report_stage stage = {"rays", 0.25};
-    const render_report report = {.scene = "airport",
-                                  .scene_path = "scenes/airport/scene.toml",
-                                  .mode = "exact",
-                                  .thermal = "therm",
-                                  .time = "1987-06-24T15:00:00Z",
-                                  .latitude_deg = 39.77333333333333,
-                                  .longitude_deg = -84.1,
-                                  .altitude_m = 250.0,
-                                  .platform = "Portable Computing Language",
-                                  .device = "cpu",
-                                  .device_version = "OpenCL 3.0",
-                                  .columns = 512,
-                                  .rows = 384,
-                                  .band = &band,
-                                  .band_count = 1,
-                                  .plane = plane,
-                                  .plane_count = 2,
-                                  .material = &material,
-                                  .material_count = 1,
-                                  .setting = setting,
-                                  .setting_count = 2,
-                                  .input = &input,
-                                  .input_count = 1,
-                                  .warnings = "one\ntwo\n",
-                                  .stage = &stage,
-                                  .stage_count = 1};
     (void)state;
 
-    write_report(&report);
+    write_report(&full_report);
 
-    scratch_assert_text("a.json", "{\n"
-                                  "  \"program\": \"radsig " RADSIG_VERSION "\",\n"
-                                  "  \"scene\": \"airport\",\n"
-                                  "  \"scene_path\": \"scenes/airport/scene.toml\",\n"
-                                  "  \"mode\": \"exact\",\n"
-                                  "  \"thermal\": \"therm\",\n"
-                                  "  \"time\": \"1987-06-24T15:00:00Z\",\n"
-                                  "  \"site\": {\n"
-                                  "    \"latitude_deg\": 39.77333333333333,\n"
-                                  "    \"longitude_deg\": -84.1,\n"
-                                  "    \"altitude_m\": 250\n"
-                                  "  },\n"
-                                  "  \"device\": {\n"
-                                  "    \"platform\": \"Portable Computing Language\",\n"
-                                  "    \"name\": \"cpu\",\n"
-                                  "    \"version\": \"OpenCL 3.0\"\n"
-                                  "  },\n"
-                                  "  \"image\": {\n"
-                                  "    \"columns\": 512,\n"
-                                  "    \"rows\": 384\n"
-                                  "  },\n"
-                                  "  \"bands\": [\n"
-                                  "    {\n"
-                                  "      \"name\": \"lwir\",\n"
-                                  "      \"wavelength_min_um\": 8,\n"
-                                  "      \"wavelength_max_um\": 13.3,\n"
-                                  "      \"gain\": 0.1,\n"
-                                  "      \"offset\": 0\n"
-                                  "    }\n"
-                                  "  ],\n"
-                                  "  \"planes\": [\n"
-                                  "    {\n"
-                                  "      \"name\": \"temperature_c\",\n"
-                                  "      \"unit\": \"C\"\n"
-                                  "    },\n"
-                                  "    {\n"
-                                  "      \"name\": \"material\",\n"
-                                  "      \"unit\": null\n"
-                                  "    }\n"
-                                  "  ],\n"
-                                  "  \"materials\": [\n"
-                                  "    {\n"
-                                  "      \"number\": 22,\n"
-                                  "      \"name\": \"grass\"\n"
-                                  "    }\n"
-                                  "  ],\n"
-                                  "  \"settings\": {\n"
-                                  "    \"seed\": 7,\n"
-                                  "    \"zenith\": \"cosine\"\n"
-                                  "  },\n"
-                                  "  \"inputs\": [\n"
-                                  "    {\n"
-                                  "      \"path\": \"summer.rad\",\n"
-                                  "      \"sha256\": \"00ff\",\n"
-                                  "      \"bytes\": 5000000000\n"
-                                  "    }\n"
-                                  "  ],\n"
-                                  "  \"warnings\": [\n"
-                                  "    \"one\",\n"
-                                  "    \"two\"\n"
-                                  "  ],\n"
-                                  "  \"timings_s\": {\n"
-                                  "    \"rays\": 0.2500\n"
-                                  "  }\n"
-                                  "}\n");
+    scratch_assert_text("a.json", ordered);
 }
 
 static void assert_holds(const char *expected)

@@ -1,0 +1,19 @@
+#include "bvh_memory.h"
+
+status bvh_memory_take(bvh_memory *out, device *dev, const bvh *tree)
+{
+    status rc = STATUS_OK;
+    const bvh_tables *tables = bvh_look(tree);
+
+    TRY(device_allocate(dev, &out->node, tables->node_count * sizeof *tables->node, tables->node));
+    TRY(device_allocate(dev, &out->block, tables->block_count * sizeof *tables->block,
+                        tables->block));
+out:
+    return rc;
+}
+
+void bvh_memory_free(bvh_memory *m)
+{
+    device_release(m->block);
+    device_release(m->node);
+}
