@@ -22,8 +22,9 @@ enum {
     SHORTEST_BAR = 160,
     TICK_DISTANCE = 32,
     TEXT_LENGTH = 160,
-    LEGEND_LINES = 20,
-    NUMBERS = 1024 /* different numbers looked for */
+    NAMED_LINES = 64,   /* of a legend */
+    UNNAMED_LINES = 20, /* of numbers without a name, among those */
+    NUMBERS = 1024      /* different numbers looked for */
 };
 
 static const uint8_t missing_rgb[3] = {172, 190, 214}, line_rgb[3] = {110, 110, 110};
@@ -45,7 +46,7 @@ typedef struct layout {
     uint32_t page_width, page_height;
     value_range range;
     bool has_bar;
-    line tick[64], legend[LEGEND_LINES + 2];
+    line tick[64], legend[NAMED_LINES + 2];
     uint32_t tick_count, legend_count;
 } layout;
 
@@ -112,13 +113,14 @@ static size_t note_number(float *number, size_t count, float value)
     return count + 1;
 }
 
-/* The numbers that occur, with their names; the rest of a long list becomes `...`. */
+/* The numbers that occur, with their names; what a long list leaves out becomes `...`. */
 static void list_labels(layout *lay)
 {
     const quick_look *look = lay->look;
     const size_t pixels = (size_t)look->columns * look->rows;
     float number[NUMBERS], last = IMAGE_NO_DATA;
-    size_t count = 0;
+    size_t count = 0, unnamed = 0;
+    bool is_cut = false;
 
     for (size_t i = 0; i < pixels; i++) {
         const float value = look->value[i];
@@ -126,14 +128,19 @@ static void list_labels(layout *lay)
         count = note_number(number, count, value);
         last = value;
     }
-    for (size_t i = 0; i < count && i < LEGEND_LINES; i++) {
-        line *to = &lay->legend[lay->legend_count++];
+    for (size_t i = 0; i < count; i++) {
         const image_label *label = find_label(look, (double)number[i]);
+        if (lay->legend_count == NAMED_LINES || (!label && unnamed == UNNAMED_LINES)) {
+            is_cut = true;
+            continue;
+        }
+        line *to = &lay->legend[lay->legend_count++];
+        unnamed += !label;
         snprintf(to->text, sizeof to->text, "%.0f %.40s", (double)number[i],
                  label ? label->name : "");
         number_colour(look, (double)number[i], to->rgb);
     }
-    if (count > LEGEND_LINES) {
+    if (is_cut) {
         line *to = &lay->legend[lay->legend_count++];
         snprintf(to->text, sizeof to->text, "...");
         memset(to->rgb, 255, 3);

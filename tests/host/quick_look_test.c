@@ -119,7 +119,26 @@ static void planes_without_values_or_with_strange_ones_are_drawn(void **state)
     }
 }
 
-static void a_legend_with_more_than_twenty_lines_ends(void **state)
+static void a_legend_has_a_line_for_every_named_number(void **state)
+{
+    static float value[64 * 32];
+    static image_label named[45];
+    uint32_t width, height;
+    quick_look look = look_of(value, 64, 32);
+    (void)state;
+
+    for (int i = 0; i < 45; i++) named[i] = (image_label){i, "material"};
+    for (int i = 0; i < 64 * 32; i++) value[i] = (float)(i % 45);
+    look.colours = QUICK_LOOK_LABELS;
+    look.label = named;
+    look.label_count = 45;
+    write_look("a.png", &look);
+
+    size_of("a.png", &width, &height);
+    assert_in_range(height, 45 * 18, 45 * 18 + 90); /* lines of 18 pixels, heading and margins */
+}
+
+static void a_legend_with_more_than_twenty_unnamed_lines_ends(void **state)
 {
     static float value[64 * 32];
     uint32_t width, height;
@@ -133,7 +152,7 @@ static void a_legend_with_more_than_twenty_lines_ends(void **state)
     write_look("a.png", &look);
 
     size_of("a.png", &width, &height);
-    assert_true(height < 32 * 8 + 90 + 6 * 20); /* 21 lines of 18 pixels, not 2048 */
+    assert_true(height < 23 * 18 + 90); /* 2 named lines, 20 others and the end; not 2048 */
 }
 
 static void the_plane_chooses_the_colours(void **state)
@@ -211,7 +230,8 @@ int main(void)
         TEST(a_single_row_is_not_enlarged_beyond_4096),
         TEST(two_looks_at_one_plane_have_the_same_bytes),
         TEST(planes_without_values_or_with_strange_ones_are_drawn),
-        TEST(a_legend_with_more_than_twenty_lines_ends),
+        TEST(a_legend_has_a_line_for_every_named_number),
+        TEST(a_legend_with_more_than_twenty_unnamed_lines_ends),
         TEST(the_plane_chooses_the_colours),
         TEST(heat_has_the_colours_of_inferno),
         TEST(diverging_runs_from_blue_over_white_to_red),
