@@ -41,6 +41,18 @@ static int take_arguments(command_settings *settings, const char **out_scene, co
     return 0;
 }
 
+/* A .wth has no column for it. */
+static void warn_about_longwave(const weather *w, const char *path)
+{
+    size_t count = 0;
+
+    for (size_t i = 0; i < w->count; i++) count += w->record[i].longwave_w_m2 > 0.0;
+    if (count > 0)
+        status_warn("%s: leaves out the measured longwave of %zu records: who reads it takes the "
+                    "sky's from the air",
+                    path, count);
+}
+
 static status run(const char *scene_path, const command_settings *settings, const char *path)
 {
     status rc = STATUS_OK;
@@ -49,6 +61,7 @@ static status run(const char *scene_path, const command_settings *settings, cons
     TRY(command_scene_read(&s, scene_path, settings));
     NEED(s->history, STATUS_ARGUMENT, "%s: has no [weather]", scene_path);
     TRY(weather_write(s->history, path));
+    warn_about_longwave(s->history, path);
 out:
     scene_free(s);
     return rc;

@@ -221,7 +221,8 @@ status weather_epw_read(weather **out, const char *path, const site *place)
     TRY(read_location(&e));
     TRY(read_periods(&e));
     while (!record_file_at_end(e.file)) TRY(read_row(&e));
-    qsort(e.series.sample, e.series.count, sizeof *e.series.sample, by_time);
+    if (e.series.count > 0)
+        qsort(e.series.sample, e.series.count, sizeof *e.series.sample, by_time);
     if (e.stated_year > 0 && e.stated_year != e.year)
         status_warn("%s: is the weather of %d, the scene's year is %d", path, e.stated_year,
                     e.year);
