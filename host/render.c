@@ -134,7 +134,6 @@ static status open_incident(render *r)
                       scene_lobe_rings(r->shared.s), &r->shared.frame));
     const interreflection_scene from = {r->shared.around, r->shared.rays, r->shared.grid,
                                         r->shared.s->shape, tables};
-    TRY(render_tables_take_blocks(&r->shared.tables, r->shared.dev, r->shared.s));
     TRY(interreflection_open(&r->shared.lights, &from, r->shared.tables.reflectance,
                              r->shared.s->depth, &r->shared.tables.blocks, r->shared.frame.sun));
     TRY(interreflection_set_sun(r->shared.lights, &r->shared.frame));
@@ -184,7 +183,10 @@ status render_open(render **out, const scene *s, device *dev)
     end_stage(r, "spectra");
     set_frame(r);
     render_change_look(r, &look);
-    if (!s->thesis) TRY(open_incident(r));
+    if (!s->thesis) {
+        TRY(render_tables_take_blocks(&r->shared.tables, dev, s));
+        TRY(open_incident(r));
+    }
     TRY(render_plane_list(&r->planes, &r->plane_count, s, r->shared.tables.bands->centre_um,
                           r->shared.tables.bands->width_um));
     *out = r;
@@ -202,12 +204,14 @@ status render_move(render *r, const scene *s)
     r->stage_count = 0;
     r->stage_start_s = clock_now_s();
     r->shared.s = s;
+    interreflection_free(r->shared.lights);
+    incident_free(r->shared.around);
     temperature_free(r->shared.warmth);
+    r->shared.lights = NULL;
+    r->shared.around = NULL;
     r->shared.warmth = NULL;
     TRY(set_temperatures(r));
     render_change_look(r, &look);
-    incident_free(r->shared.around);
-    r->shared.around = NULL;
     if (!s->thesis) TRY(open_incident(r));
 out:
     return rc;
