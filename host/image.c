@@ -2,10 +2,12 @@
 
 #include "image_file.h"
 #include "image_header.h"
+#include "value_range.h"
 
 #include <assert.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -154,6 +156,7 @@ typedef struct exr_texts {
     image_text *text; /* shape (count); owns keys and values */
     size_t count;
     exr_name *spectral; /* names of spectral channels */
+    float *colour;      /* red, green and blue beside them */
 } exr_texts;
 
 static void exr_texts_free(exr_texts *texts)
@@ -163,6 +166,7 @@ static void exr_texts_free(exr_texts *texts)
         free((char *)texts->text[i].value);
     }
     free(texts->text);
+    free(texts->colour);
     free(texts->spectral);
 }
 
@@ -248,6 +252,33 @@ out:
     return rc;
 }
 
+/* A picture for viewers that know no spectra: the last, middle and first plane as red, green and blue,
+ * each from 0 to 1 over its range.
+ *   out   shape (3) */
+static status add_colours(exr_texts *to, image *img, image_channel *out)
+{
+    status rc = STATUS_OK;
+    static const char *const names[3] = {"R", "G", "B"};
+    const size_t pixels = (size_t)img->columns * img->rows, last = img->plane_count - 1;
+    const size_t plane[3] = {last, last / 2, 0};
+
+    to->colour = malloc(3 * pixels * sizeof *to->colour);
+    NEED(to->colour, STATUS_MEMORY, "no memory for the colours of %zu pixels", pixels);
+    for (int c = 0; c < 3; c++) {
+        const float *from = image_values(img, plane[c]);
+        float *colour = to->colour + (size_t)c * pixels;
+        value_range range;
+        TRY(value_range_find(&range, from, pixels, IMAGE_NO_DATA));
+        for (size_t i = 0; i < pixels; i++) {
+            const double share = ((double)from[i] - range.min) / (range.max - range.min);
+            colour[i] = (float)fmin(fmax(share, 0.0), 1.0);
+        }
+        out[c] = (image_channel){names[c], colour};
+    }
+out:
+    return rc;
+}
+
 static status add_channels(exr_texts *to, image_channel **out, size_t *out_count, image *const *img,
                            size_t image_count)
 {
@@ -255,12 +286,16 @@ static status add_channels(exr_texts *to, image_channel **out, size_t *out_count
     size_t count = 0;
 
     for (size_t i = 0; i < image_count; i++) count += img[i]->plane_count;
-    image_channel *channel = calloc(count, sizeof *channel);
+    image_channel *channel = calloc(count + 3, sizeof *channel);
     NEED(channel, STATUS_MEMORY, "no memory for %zu channels", count);
     for (size_t i = 0, c = 0; i < image_count; i++) {
         assert(img[i]->columns == img[0]->columns && img[i]->rows == img[0]->rows);
         const bool spectral = !to->spectral && is_spectral(img[i]);
-        if (spectral) TRY(name_spectral(to, img[i]));
+        if (spectral) {
+            TRY(name_spectral(to, img[i]));
+            TRY(add_colours(to, img[i], channel + count));
+            count += 3;
+        }
         for (size_t p = 0; p < img[i]->plane_count; p++, c++) {
             const image_plane *plane = &img[i]->plane[p];
             const char *name = spectral ? to->spectral[p] : plane->name;

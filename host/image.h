@@ -71,8 +71,8 @@ void image_free(image *img);
 
 /* Writes the planes of all the images, which have one size, as channels of the OpenEXR file `name`,
  * each under its plane's name alone; its unit is the attribute `unit.<channel>`. A cube of more
- * than IMAGE_SPECTRAL planes of ascending wavelength has spectral channels instead, `S0.00403,5000nm`
- * (Fichet and others, JCGT 10(3), 2021). */
+ * than IMAGE_SPECTRAL planes of ascending wavelength has spectral channels instead, `S0.00403,5000nm`,
+ * and a picture, `R`, `G`, `B` (Fichet and others, JCGT 10(3), 2021). */
 status image_write_exr(output_folder *folder, const char *name, image *const *img,
                        size_t image_count, const image_header *header);
 

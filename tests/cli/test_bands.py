@@ -99,6 +99,7 @@ def test_a_hyperspectral_cube_has_spectral_channels(program, tmp_path):
 
     header = exr.read_header(got.folder / "plane.exr")
     spectral = [name for name in exr.channels(header) if name.startswith("S0.")]
+    assert {"R", "G", "B"} <= set(exr.channels(header))
     # the centre of a flat band is its middle; names sort by wavelength
     assert spectral == [f"S0.{8125 + 250 * i:05},0000nm" for i in range(24)]
     assert header["spectralLayoutVersion"] == b"1.0"

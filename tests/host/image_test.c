@@ -233,6 +233,34 @@ static void the_exr_holds_the_planes_of_both_images_by_name(void **state)
     assert_channel("range.R", (float[]){0, 1, 2, 10, 11, 12}); /* R alone would be a colour */
 }
 
+static void
+the_exr_of_a_hyperspectral_cube_has_a_picture_of_its_last_middle_and_first_plane(void **state)
+{
+    enum { COUNT = 17 };
+    static const float up[6] = {0, 1.0f / 12, 2.0f / 12, 10.0f / 12, 11.0f / 12, 1};
+    static const float down[6] = {1, 11.0f / 12, 10.0f / 12, 2.0f / 12, 1.0f / 12, 0};
+    image_plane plane[COUNT];
+    char name[COUNT][8];
+    (void)state;
+
+    for (int p = 0; p < COUNT; p++) {
+        snprintf(name[p], sizeof name[p], "b%d", p);
+        plane[p] = (image_plane){name[p], "W", 8.0 + 0.1 * p, 0.1, false};
+    }
+    output_folder *folder = opened();
+    image *cube = filled(folder, "a", plane, COUNT);
+    for (int i = 0; i < 6; i++) image_values(cube, COUNT - 1)[i] *= -1;
+    if (image_write_exr(folder, "a.exr", &cube, 1, &labelled) != STATUS_OK)
+        fail_msg("%s", status_message());
+    assert_int_equal(image_finish(cube, &plain), STATUS_OK);
+    image_free(cube);
+    commit(folder);
+
+    assert_channel("R", down);
+    assert_channel("G", up);
+    assert_channel("B", up);
+}
+
 static void two_exr_files_of_one_render_have_the_same_bytes(void **state)
 {
     (void)state;
@@ -256,6 +284,7 @@ int main(void)
         TEST(an_image_in_a_folder_that_takes_no_files_is_refused),
         TEST(an_image_without_pixels_is_refused),
         TEST(the_exr_holds_the_planes_of_both_images_by_name),
+        TEST(the_exr_of_a_hyperspectral_cube_has_a_picture_of_its_last_middle_and_first_plane),
         TEST(two_exr_files_of_one_render_have_the_same_bytes),
     };
 
