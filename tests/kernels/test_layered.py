@@ -8,6 +8,7 @@ import pytest
 from thermal_reference import FORCING, SIGMA, SPAN
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
+import table_d1  # noqa: E402
 
 KERNELS = pathlib.Path(__file__).resolve().parents[2] / "kernels"
 NODES, STEP_S = 8, 900.0
@@ -271,3 +272,55 @@ def test_a_tenth_of_a_millimetre_of_steel_stays_stable(layered):
     t = front[-1]
     both = 0.44 * (300.0 + SIGMA * 290.0**4 - 2 * SIGMA * t**4) + 22 * (290 - t) + 0.88 * 900
     assert abs(both) < 0.5 and front.max() < t + 0.01
+
+
+def deep_asphalt(depth_m=1.0):
+    """Absorbs all, emits nothing; its back keeps 290 K, far below."""
+    return facet([(depth_m, *ASPHALT)], absorptance=1.0, back=STATED, back_k=290.0)
+
+
+def test_a_wave_of_300_w_m2_warms_deep_asphalt_by_30_c_three_hours_later(layered):
+    """Amplitude / sqrt(2 pi / day x k rho c), an eighth of a day behind."""
+    hour = np.arange(20 * 96 + 1) * 0.25
+    forcing = steady(len(hour))
+    forcing["direct_w_m2"] = 300 + 300 * np.sin(2 * np.pi * hour / 24)
+
+    surface = layered(deep_asphalt(), forcing)[-96:, 0]
+
+    wave = np.mean(surface * np.exp(-2j * np.pi * hour[-96:] / 24)) * 2j
+    assert abs(wave) == pytest.approx(30.39, rel=0.02)  # 8 nodes over ten damping depths: 1.7 %
+    assert -np.angle(wave) * 24 / (2 * np.pi) == pytest.approx(3.0, abs=4 / 60)
+
+
+def test_an_hour_of_500_w_m2_warms_deep_asphalt_as_the_root_of_time(layered):
+    """29.243 C after an hour: 2 q sqrt(t / (pi k rho c)). The sun of a record is held from half a step
+    before it on."""
+    step_s = 225.0
+    forcing = steady(120)
+    forcing["direct_w_m2"][100:] = 500.0
+
+    rise = layered(deep_asphalt(0.4), forcing, step_s)[100:117, 0] - 290.0
+
+    after_h = (np.arange(17) + 0.5) * step_s / 3600
+    at_an_hour = np.interp(1.0, after_h, rise)
+    assert at_an_hour == pytest.approx(29.243, rel=0.02)  # nodes that grow by half: 1.7 %
+
+
+def test_energy_closes_over_a_day_for_every_material_of_table_d1(layered):
+    """As above, with the rows' absorptance, emissivity, thickness and matter."""
+    rows = [r for r in table_d1.ROWS if r.conductivity_cal_cm_h_c > 0]
+    facets = np.concatenate([
+        facet([(0.01 * r.thickness_cm, 0.11622 * r.conductivity_cal_cm_h_c,
+                1000 * r.density_g_cm3 * 4184 * r.specific_heat_cal_g_c)],
+              absorptance=r.visible_emissivity, emissivity=r.thermal_emissivity)
+        for r in rows])
+    hour = np.arange(193) * 0.25
+    forcing = steady(193, convection_w_m2_k=12.0)
+    forcing["direct_w_m2"] = 700 * np.maximum(0, np.sin(2 * np.pi * (hour - 6) / 24)) ** 2
+    forcing["sky_longwave_w_m2"] = 300.0
+
+    front = layered(facets, forcing)[97:]
+
+    absorbed = facets["absorptance"].astype(float) * forcing["direct_w_m2"][97:, None]
+    lost = facets["emissivity"] * (SIGMA * front**4 - 300.0) + 12.0 * (front - 290.0)
+    assert lost.mean(axis=0) == pytest.approx(absorbed.mean(axis=0), rel=1e-3)  # the notes' bound
