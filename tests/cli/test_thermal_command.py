@@ -100,6 +100,40 @@ def test_water_without_thermal_emissivity_is_accepted(second_day):
     assert all(0 < t < 40 for _, t in second_day("Water"))
 
 
+# Lowest and highest of that day as the notes on the model have them, by an implementation of its own.
+CLEAR_DAY_C = {
+    "Asphalt": (5, 63), "Concrete": (3, 50), "Sand": (2, 54), "Car_Roof": (5, 70),
+    "Windshield": (4, 53), "Shingles": (4, 43), "Car_Side": (9, 35), "Bumper": (8, 43),
+    "Tire": (7, 35), "Window": (8, 31), "Grey_1": (6, 32), "Grey_2": (6, 37), "Grey_3": (6, 41),
+    "Grey_4": (6, 45), "Grey_5": (6, 41), "Blue_Wood": (6, 37), "Green_Wood": (6, 34),
+    "Red": (6, 39), "Front_Black": (7, 42), "Front_White": (7, 19), "Water": (13, 20)}
+
+
+@pytest.mark.parametrize("name", CLEAR_DAY_C)
+def test_a_clear_day_is_within_5_c_of_what_is_plausible(second_day, name):
+    temperatures = [t for _, t in second_day(name)]
+
+    # 5 C: two readings of a model that is not public
+    assert (min(temperatures), max(temperatures)) == pytest.approx(CLEAR_DAY_C[name], abs=5)
+
+
+def test_materials_peak_in_the_order_of_what_is_plausible(second_day):
+    """Where they differ by more than 2 C."""
+    peak = {name: highest(second_day(name))[0] for name in CLEAR_DAY_C}
+
+    assert not [(a, b) for a in peak for b in peak
+                if CLEAR_DAY_C[a][1] < CLEAR_DAY_C[b][1] - 2 and peak[a] >= peak[b]]
+
+
+def test_water_as_one_lump_hardly_swings(materials, tmp_path):
+    library = tmp_path / "lump.mat"
+    library.write_text(materials.read_text().replace("-0.57", "0.57"))
+    lines = of_row(library, "Water").stdout.splitlines()[1:]
+    day = [float(line.split(",")[1]) for line in lines][96:]
+
+    assert len(day) == 97 and max(day) - min(day) <= 8  # the notes' bound
+
+
 def with_air(path, rise_c):
     """The history with warmer air of the same relative humidity."""
     heading, *lines = HISTORY.read_text().splitlines()

@@ -269,12 +269,15 @@ def test_a_black_plate_cools_from_400_to_300_k_in_12587_s(thermal):
     assert at_300_k - STEP_S / 2 == pytest.approx(12587.08, rel=0.005)
 
 
-def test_a_black_plate_in_1361_w_m2_starts_at_393_6_k(thermal):
+@pytest.mark.parametrize("share, expected_k", [(1.0, 393.606), (0.25, 278.321)])
+def test_a_black_plate_in_1361_w_m2_starts_at_393_6_k_and_a_sphere_at_278_3(
+        thermal, share, expected_k):
+    """(share x 1361 / sigma)^(1/4); of a sphere a quarter is in the sun."""
     facets, materials = one_facet(0.01, 0.5, thermal_emissivity=1.0, solar_absorptance=1.0)
 
-    start = thermal(facets, materials, steady_forcing(2, direct_w_m2=1361.0))[0, 0]
+    start = thermal(facets, materials, steady_forcing(2, direct_w_m2=1361.0 * share))[0, 0]
 
-    assert start == pytest.approx(393.606, abs=2e-3)  # (1361 / sigma)^(1/4)
+    assert start == pytest.approx(expected_k, abs=2e-3)
 
 
 def test_a_slab_with_both_faces_in_air_starts_with_its_conductances_in_series(thermal):
