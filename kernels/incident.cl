@@ -95,30 +95,29 @@ static void see_cell(incident_round *round, const incident_group *g, around from
 {
     const lanes_bits word =
         lanes_load_bits(cells.met + (size_t)c * frame.pixel_count, g->first, frame.pixel_count);
+    const uint met = g->diffuse & lanes_bits_of(word != RECORD_NONE);
     lanes direction[3], cosine = (lanes)1.0f;
 
+    if (!met) return;
     hemisphere_lanes_direction(&g->view.axes, cells.cell + 4u * c, direction);
     const lanes weight =
         cells.cell[4u * c + 3u] * (direction[2] > 0.0f ? g->view.above : g->view.below);
-    uint met = g->diffuse;
-    for (uint i = 0; i < LANES_WIDTH; i++) {
-        const uint met_word = ((const uint *)&word)[i];
+    for (uint left = met; left; left &= left - 1u) {
+        const uint i = 31u - clz(left & -left), facet = ((const uint *)&word)[i];
         const float along[3] = {lane_of(&direction[0], i), lane_of(&direction[1], i),
                                 lane_of(&direction[2], i)};
         float lane_cosine;
-        if (met_word == RECORD_NONE) met &= ~(1u << i);
-        if (!(met >> i & 1u)) continue;
         round->seen[i][round->count[i]] =
-            see_face(from, frame, met_word & ~HEMISPHERE_LIT, lane_of(&weight, i),
-                     met_word & HEMISPHERE_LIT ? 1.0f : 0.0f, along, &lane_cosine);
+            see_face(from, frame, facet & ~HEMISPHERE_LIT, lane_of(&weight, i),
+                     facet & HEMISPHERE_LIT ? 1.0f : 0.0f, along, &lane_cosine);
         LANES_SET(cosine, i, lane_cosine);
     }
     const lanes angle_deg = acos(fmin(cosine, 1.0f)) * (180.0f / PI_F);
-    for (uint i = 0; i < LANES_WIDTH; i++) {
-        if (!(met >> i & 1u)) continue;
-        const uint facet = ((const uint *)&word)[i] & ~HEMISPHERE_LIT;
-        round->seen[i][round->count[i]++].emissivity = lookup_emissivity(
-            from.materials[from.facets[facet].material], lane_of(&angle_deg, i), 0u);
+    for (uint left = met; left; left &= left - 1u) {
+        const uint i = 31u - clz(left & -left);
+        incident_facet *seen = &round->seen[i][round->count[i]++];
+        seen->emissivity = lookup_emissivity(from.materials[from.facets[seen->facet].material],
+                                             lane_of(&angle_deg, i), 0u);
     }
 }
 
