@@ -129,7 +129,7 @@ static status run_bodies(const incident *in, const incident_pixels *p, device_me
                       ARG(body_blocks), ARG(medium), ARG(levels), ARG(in->tables.facet),
                       ARG(in->tables.material), ARG(in->tables.temperature_k),
                       ARG(p->facet_background), ARG(p->light), ARG(p->points.hit),
-                      ARG(p->background), ARG(p->background_lit), ARG(p->points.met),
+                      ARG(p->background), ARG(p->background_lit), ARG(p->points.met), ARG(p->gloss),
                       ARG(p->spectra), ARG(p->emissivity), ARG(p->extinction), ARG(out));
 }
 
@@ -145,8 +145,8 @@ status incident_run(const incident *in, const incident_pixels *p, device_memory 
                    ARG(how), ARG(cell), ARG(in->dome), ARG(in->tables.facet),
                    ARG(in->tables.material), ARG(in->tables.temperature_k),
                    ARG(p->facet_background), ARG(p->light), ARG(p->points.hit), ARG(p->background),
-                   ARG(p->background_lit), ARG(p->points.met), ARG(p->spectra), ARG(p->emissivity),
-                   ARG(out)));
+                   ARG(p->background_lit), ARG(p->points.met), ARG(p->gloss), ARG(p->spectra),
+                   ARG(p->emissivity), ARG(out)));
     if (p->bodies) TRY(run_bodies(in, p, out));
 out:
     return rc;

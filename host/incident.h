@@ -28,6 +28,7 @@ typedef struct incident_pixels {
     device_memory facet_background;           /* background_record, per facet, the ground's last */
     device_memory light;                      /* see interreflection.h */
     uint32_t light_length;
+    device_memory gloss; /* see gloss.cl; NULL: nothing is rough */
     device_memory spectra, emissivity;
     const bodies *bodies;     /* NULL: none */
     device_memory extinction; /* of bodies: see bodies_sample */

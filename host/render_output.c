@@ -169,7 +169,9 @@ out:
 static quick_look labelled(const writing *w, const render_plane *p, quick_look look)
 {
     static const image_label interactions[] = {
-        {0, "missed"}, {1, "diffuse"}, {2, "specular to sky"}, {3, "specular to background"}};
+        {0, "missed"},          {1, "diffuse"},
+        {2, "specular to sky"}, {3, "specular to background"},
+        {4, "partly to sky"},   {5, "partly to background"}};
 
     if (look.colours != QUICK_LOOK_LABELS) return look;
     if (!strcmp(p->name, "interaction")) {

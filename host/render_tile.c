@@ -1,5 +1,7 @@
 #include "render_tile.h"
 
+#include "../kernels/lobe.h"
+
 #include "sunlight.h"
 
 enum { TILE_BYTES = 1 << 27, TILE_LEAST = 1 << 10, TILE_MOST = 1 << 16 };
@@ -51,6 +53,8 @@ status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t 
     if (has_incident(r))
         TRY(device_allocate(r->dev, &t->incident, n * 2 * r->frame.sample_count * sizeof(float),
                             NULL));
+    if (has_incident(r) && scene_is_rough(r->s))
+        TRY(device_allocate(r->dev, &t->gloss, n * LOBE_RAYS * sizeof(uint32_t), NULL));
     if (r->bodies) {
         TRY(device_allocate(r->dev, &t->body_paths,
                             n * TRANSMISSION_PATHS * sizeof(transmission_path), NULL));
@@ -74,6 +78,7 @@ void render_tile_free(render_tile_memory *t)
     device_release(t->direct);
     device_release(t->body_paths);
     device_release(t->incident);
+    device_release(t->gloss);
     device_release(t->background_lit);
     device_release(t->background_hit);
     device_release(t->background);
@@ -132,6 +137,18 @@ out:
     return rc;
 }
 
+/* The rays of rough surfaces. */
+static status cast_gloss(const render_tile_memory *t, const render_shared *r,
+                         const radiometry_record *frame)
+{
+    const world_record world = ray_scene_world(r->rays);
+    const device_memory nodes = ray_scene_nodes(r->rays), blocks = ray_scene_blocks(r->rays);
+
+    return device_run(r->dev, "gloss", shape2(t->count, LOBE_RAYS), ARG(*frame), ARG(r->camera),
+                      ARG(world), ARG(nodes), ARG(blocks), ARG(r->tables.facets),
+                      ARG(r->tables.materials), ARG(t->points.hit), ARG(t->gloss));
+}
+
 static status colour(const render_tile_memory *t, const render_shared *r, bool wants_parts)
 {
     status rc = STATUS_OK;
@@ -149,12 +166,14 @@ static status colour(const render_tile_memory *t, const render_shared *r, bool w
                    ARG(behind), ARG(t->truth_planes)));
     if (has_incident(r)) {
         TRY(interreflection_set_sun(r->lights, &r->frame));
+        if (t->gloss) TRY(cast_gloss(t, r, &frame));
         const incident_pixels pixels = {
             .frame = frame,
             .camera = r->camera,
             .points = t->points,
             .background = t->background,
             .background_lit = t->background_lit,
+            .gloss = t->gloss,
             .facet_background = interreflection_background(r->lights),
             .light = interreflection_rows(r->lights),
             .light_length = r->tables.blocks.sample_count,

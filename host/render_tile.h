@@ -30,6 +30,7 @@ typedef struct render_tile_memory {
     uint32_t first, count;
     shape_factor_points points;
     device_memory lit, history, temperature_k, background, background_hit, background_lit;
+    device_memory gloss;    /* exact mode with rough materials: see gloss.cl */
     device_memory incident; /* exact mode: spectra, shape (count, 2, samples) */
     device_memory body_paths, direct, background_direct; /* with bodies: see crossing.cl */
     device_memory truth_planes, band_planes;

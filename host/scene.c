@@ -306,6 +306,15 @@ bool scene_sums_points(const scene *s)
     return s->thesis && !s->is_uniform;
 }
 
+bool scene_is_rough(const scene *s)
+{
+    for (uint32_t i = 0; i < s->material_count; i++) {
+        const material_record *m = &s->materials[i].record;
+        if (m->specular_share > 0.0f && m->roughness >= LOBE_SMOOTH) return true;
+    }
+    return false;
+}
+
 uint32_t scene_lobe_rings(const scene *s)
 {
     const uint32_t rings = (uint32_t)lround(90.0 / s->hemisphere_zenith_step_deg);

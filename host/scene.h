@@ -107,6 +107,9 @@ bool scene_sums_points(const scene *s);
  * rows of diffuse lobes (lobe.h). */
 uint32_t scene_emissivity_rows(const scene *s);
 
+/* Whether a material has a specular share that is rough. */
+bool scene_is_rough(const scene *s);
+
 /* Rows of a material's diffuse lobe: 0 in thesis mode and where the emissivity has no angles. */
 uint32_t scene_lobe_rows(const scene *s, uint32_t material);
 

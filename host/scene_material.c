@@ -10,7 +10,7 @@
 typedef struct stated_material {
     const toml_node *node;
     const char *name, *emissivity_path, *extinction_path, *scattering_path;
-    double emissivity, specular_share, temperature_k, thickness_cm;
+    double emissivity, specular_share, roughness, temperature_k, thickness_cm;
     double density_kg_m3, specific_heat_j_kg_k, conductivity_w_m_k;
     double solar_absorptance, exposed_area, extinction_per_km;
     bool two_sided;
@@ -35,6 +35,7 @@ static stated_material read_stated(scene_reader *reader, const toml_node *node)
                          .name = "",
                          .emissivity = NAN,
                          .specular_share = NAN,
+                         .roughness = NAN,
                          .temperature_k = NAN,
                          .thickness_cm = NAN,
                          .density_kg_m3 = NAN,
@@ -53,6 +54,7 @@ static stated_material read_stated(scene_reader *reader, const toml_node *node)
     scene_table_file(&t, "extinction_file", &m.extinction_path);
     scene_table_file(&t, "scattering_file", &m.scattering_path);
     scene_table_number(&t, "specular_share", 0.0, 1.0, &m.specular_share);
+    scene_table_number(&t, "roughness", 0.0, 1.0, &m.roughness);
     scene_table_number(&t, "temperature_k", 1.0, 6000.0, &m.temperature_k);
     scene_table_number(&t, "thickness_cm", 1e-4, 1e4, &m.thickness_cm);
     scene_table_number(&t, "density_kg_m3", .01, 3e4, &m.density_kg_m3);
@@ -130,12 +132,21 @@ static float either(double stated, double otherwise)
     return (float)(isnan(stated) ? otherwise : stated);
 }
 
+/* Thesis mode knows 0 and 1 alone. */
+static float specular_share(const scene *s, const stated_material *stated, const material *known)
+{
+    const float share = either(stated->specular_share, known->specular_share);
+
+    return s->thesis ? (share < 0.5f ? 0.0f : 1.0f) : share;
+}
+
 static material_record make_record(const material_sources *from, const material *known,
                                    const stated_material *stated)
 {
     static const material unknown = {.density_kg_m3 = 0.0, .exposed_area = .5};
     static const stated_material nothing = {.emissivity = NAN,
                                             .specular_share = NAN,
+                                            .roughness = NAN,
                                             .density_kg_m3 = NAN,
                                             .specific_heat_j_kg_k = NAN,
                                             .conductivity_w_m_k = NAN,
@@ -153,7 +164,8 @@ static material_record make_record(const material_sources *from, const material 
         .solar_absorptance = either(over->solar_absorptance, solar),
         .thermal_emissivity = either(over->emissivity, base->thermal_emissivity),
         .exposed_area = either(over->exposed_area, base->exposed_area),
-        .specular_share = either(over->specular_share, base->specular_share),
+        .specular_share = specular_share(from->reader->s, over, base),
+        .roughness = from->reader->s->thesis ? 0.0f : either(over->roughness, 0.0),
         .number = known ? (uint32_t)known->code : stated_number(from, stated),
     };
 }
@@ -205,9 +217,6 @@ static void check_material(scene_reader *reader, const scene_material *m,
 {
     const material_record *r = &m->record;
 
-    if (r->specular_share != 0.0f && r->specular_share != 1.0f)
-        scene_fail(reader, node, "material %s: specular_share is %g, expected 0 or 1", m->name,
-                   (double)r->specular_share);
     if (reader->s->thermal == SCENE_THERMAL_FIXED) return;
     const char *model = scene_thermal_name(reader->s->thermal);
     if (!(r->density_kg_m3 > 0.0f) || !(r->specific_heat_j_kg_k > 0.0f))

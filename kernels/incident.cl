@@ -1,3 +1,4 @@
+#include "gloss.h"
 #include "sky_weights.h"
 
 /* Cells whose facets are held at once. */
@@ -156,26 +157,20 @@ static void divide_by_lobe(const incident_group *g, uint lane, uint ring_count, 
 
 /* Takes pixels `first` and following; what their rays met is looked at by `look_around`. */
 static incident_group take_group(uint first, radiometry_record frame, around from,
-                                 incident_cells cells, global const hit_record *hit,
-                                 global const background_record *background)
+                                 incident_cells cells, global const hit_record *hit)
 {
     incident_group g = {.first = first};
     lanes normal[3] = {(lanes)0.0f, (lanes)0.0f, (lanes)1.0f};
 
     g.lane_count = min((uint)LANES_WIDTH, frame.pixel_count - first);
     for (uint i = 0; i < LANES_WIDTH; i++) {
-        g.kind[i] = INTERACTION_MISSED;
+        g.specular[i] = 0.0f;
         g.lobe[i] = RECORD_NONE;
         if (i >= g.lane_count || hit[first + i].facet == RECORD_NONE) continue;
         const uint material = from.facets[hit[first + i].facet].material;
-        g.kind[i] = INTERACTION_DIFFUSE;
-        if (!from.how.is_of_facets) {
-            const background_record mirrored = background[first + i];
-            g.kind[i] = pixel_interaction(from.materials[material], mirrored);
-            g.facet[i] = mirrored.facet;
-        }
+        if (!from.how.is_of_facets) g.specular[i] = from.materials[material].specular_share;
         for (int k = 0; k < 3; k++) LANES_SET(normal[k], i, hit[first + i].normal[k]);
-        if (g.kind[i] != INTERACTION_DIFFUSE) continue;
+        if (g.specular[i] == 1.0f) continue;
         g.diffuse |= 1u << i;
         g.lobe[i] = from.materials[material].lobe_first;
     }
@@ -184,29 +179,56 @@ static incident_group take_group(uint first, radiometry_record frame, around fro
     return g;
 }
 
-/* The direction into which a lane reflects the sensor's ray. */
-static void reflect_ray(const incident_group *g, uint lane, radiometry_record frame,
-                        camera_record camera, float *out)
+/* Multiplies the radiance of a lane by a share.
+ *   out   of this lane: of the sky, and of facets and ground */
+static void keep_share(float share, uint row, global float *out)
 {
-    const float normal[3] = {lane_of(&g->view.axes.normal[0], lane),
-                             lane_of(&g->view.axes.normal[1], lane),
-                             lane_of(&g->view.axes.normal[2], lane)};
-    float ray[3];
+    for (uint k = 0; k < 2u * row; k++) out[k] *= share;
+}
 
-    pixel_ray(camera, frame.columns, frame.first_pixel + g->first + lane, ray);
-    for (int k = 0; k < 3; k++) out[k] = ray[k] - 2.0f * pixel_dot(ray, normal) * normal[k];
+/* Adds what the rays of a specular share bring.
+ *   out   of this pixel: of the sky, and of facets and ground */
+static void add_gloss(around from, radiometry_record frame, camera_record camera, uint pixel,
+                      const hit_record *at, const background_record *mirrored, float mirrored_lit,
+                      global const uint *gloss_words, global const float *spectra,
+                      global const float *emissivity, global float *out)
+{
+    const uint row = frame.sample_count;
+    const material_record material = from.materials[from.facets[at->facet].material];
+    const uint count = gloss_count(material);
+    const float weight = material.specular_share / (float)count;
+    global const float *sky = spectra + (size_t)(SPECTRA_PATHS + 2u * frame.path_count) * row;
+    float direction[3];
+
+    for (uint n = 0; n < count; n++) {
+        const uint word =
+            gloss_met(frame, material, mirrored->facet, mirrored_lit, gloss_words, pixel, n);
+        gloss_direction(frame, camera, at, material, pixel, n, direction);
+        if (word != RECORD_NONE) {
+            const incident_facet seen = see_facet(from, frame, word & ~HEMISPHERE_LIT, weight,
+                                                  word & HEMISPHERE_LIT ? 1.0f : 0.0f, direction);
+            add_facets(&seen, 1u, from, frame, spectra, emissivity, RECORD_NONE, 0u, out + row);
+            continue;
+        }
+        const sky_lookup place = sky_find(frame, direction[0], direction[1], direction[2]);
+        for (uint block = 0; block < row / SPECTRUM_WIDTH; block++)
+            spectrum_store(spectrum_load(out, block) +
+                               weight * sky_radiance(sky, frame, place, block),
+                           out, block);
+    }
 }
 
 /* Radiance that reaches every pixel's surface, weighted for its reflection: each ray of the
  * hemisphere brings the facet that it met (its own temperature, emissivity at the ray's angle, sun
- * and what it sees itself) or the sky of its direction; a mirror has one ray. Exact counterpart of the
- * background in eq. 2.4-1 and 2.4-2.
+ * and what it sees itself) or the sky of its direction, and so does each ray of a specular share. Exact
+ * counterpart of the background in eq. 2.4-1 and 2.4-2.
  * Launch: (frame.pixel_count / LANES_WIDTH, rounded up).
  * cell: (how.cell_count, 4), met: (how.cell_count, pixel_count), see hemisphere.cl
  * dome: (how.dome_count, 8), see sky_weights.h
  * facets, temperature_k, facet_background: per facet, the ground's behind the real ones
  * light: see surroundings.h
  * hit, background, background_lit: per pixel; the last two are read for mirrors, not of facets
+ * gloss_words: (LOBE_RAYS, pixel_count), see gloss.cl; NULL where nothing is rough
  * spectra, emissivity: as radiometry.cl
  * out: (pixel_count, 2, sample_count), W m-2 sr-1 um-1: of the sky, and of facets and ground */
 kernel void incident(const radiometry_record frame, const camera_record camera,
@@ -216,37 +238,31 @@ kernel void incident(const radiometry_record frame, const camera_record camera,
                      global const background_record *facet_background, global const float *light,
                      global const hit_record *hit, global const background_record *background,
                      global const float *background_lit, global const uint *met,
-                     global const float *spectra, global const float *emissivity, global float *out)
+                     global const uint *gloss_words, global const float *spectra,
+                     global const float *emissivity, global float *out)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= frame.pixel_count) return;
     const around from = {facets, materials, temperature_k, facet_background, light, how};
     const incident_cells cells = {how.cell_count, how.ring_count, cell, met};
-    const incident_group g = take_group(first, frame, from, cells, hit, background);
+    const incident_group g = take_group(first, frame, from, cells, hit);
     const uint row = frame.sample_count;
-    global float *from_sky = out + (size_t)first * 2u * row, *from_facets = from_sky + row;
+    global float *from_sky = out + (size_t)first * 2u * row;
     lanes weights[INCIDENT_WEIGHTS];
-    float ray[3];
 
     sky_weigh(weights, frame, &g, cells, how.dome_count, dome);
-    for (uint i = 0; i < LANES_WIDTH; i++) {
-        if (g.kind[i] != INTERACTION_SPECULAR_SKY) continue;
-        reflect_ray(&g, i, frame, camera, ray);
-        incident_add_sky((float *)weights + i, LANES_WIDTH, frame,
-                         sky_find(frame, ray[0], ray[1], ray[2]), 1.0f);
-    }
     write_sky(weights, frame, &g, how.ring_count, spectra, emissivity, from_sky);
-    for (uint i = 0; i < g.lane_count; i++) {
-        for (uint k = 0; k < row; k++) from_facets[i * 2u * row + k] = 0.0f;
-        if (g.kind[i] != INTERACTION_SPECULAR_BACKGROUND) continue;
-        reflect_ray(&g, i, frame, camera, ray);
-        const incident_facet seen =
-            see_facet(from, frame, g.facet[i], 1.0f, background_lit[first + i], ray);
-        add_facets(&seen, 1u, from, frame, spectra, emissivity, RECORD_NONE, 0u,
-                   from_facets + i * 2u * row);
-    }
-    if (g.diffuse) add_cells(&g, from, frame, cells, spectra, emissivity, from_facets);
     for (uint i = 0; i < g.lane_count; i++)
-        if (g.lobe[i] != RECORD_NONE)
-            divide_by_lobe(&g, i, how.ring_count, row, emissivity, from_sky + i * 2u * row);
+        for (uint k = 0; k < row; k++) from_sky[(2u * i + 1u) * row + k] = 0.0f;
+    if (g.diffuse) add_cells(&g, from, frame, cells, spectra, emissivity, from_sky + row);
+    for (uint i = 0; i < g.lane_count; i++) {
+        global float *own = from_sky + 2u * i * row;
+        if (g.lobe[i] != RECORD_NONE) divide_by_lobe(&g, i, how.ring_count, row, emissivity, own);
+        if (g.specular[i] == 0.0f) continue;
+        const hit_record at = hit[first + i];
+        const background_record mirrored = background[first + i];
+        keep_share(1.0f - g.specular[i], row, own);
+        add_gloss(from, frame, camera, first + i, &at, &mirrored, background_lit[first + i],
+                  gloss_words, spectra, emissivity, own);
+    }
 }

@@ -2,6 +2,7 @@
 #define LANES_WIDTH 1
 #include "cloud.h"
 #include "crossing.h"
+#include "gloss.h"
 #include "surroundings.h"
 
 /* Opaque geometry, and bodies. */
@@ -116,8 +117,8 @@ kernel void incident_bodies(
     global const float *temperature_k, global const background_record *facet_background,
     global const float *light, global const hit_record *hit,
     global const background_record *background, global const float *background_lit,
-    global const uint *met, global const float *spectra, global const float *emissivity,
-    global const float *extinction, global float *out)
+    global const uint *met, global const uint *gloss_words, global const float *spectra,
+    global const float *emissivity, global const float *extinction, global float *out)
 {
     const uint pixel = get_global_id(0);
     if (pixel >= frame.pixel_count) return;
@@ -129,28 +130,32 @@ kernel void incident_bodies(
                               body_nodes, body_blocks, medium, level};
     const body_spectra tables = {spectra, emissivity, extinction};
     const material_record material = materials[facets[at.facet].material];
-    const uint is_diffuse = pixel_interaction(material, background[pixel]) == INTERACTION_DIFFUSE;
-    const uint rays = is_diffuse ? how.cell_count : 1u;
-    const incident_cells cells = {is_diffuse ? rays : 0u, how.ring_count, cell, met};
+    const float specular = material.specular_share;
+    const uint cell_rays = specular < 1.0f ? how.cell_count : 0u;
+    const incident_cells cells = {cell_rays, how.ring_count, cell, met};
     body_lobe lobe = {.view = look_around(at.normal, cells, pixel, frame.pixel_count),
-                      .first = is_diffuse ? material.lobe_first : RECORD_NONE,
                       .ring_count = how.ring_count};
     global float *from_sky = out + (size_t)pixel * 2u * frame.sample_count;
-    float direction[3], ray_in[3];
+    float direction[3];
 
-    pixel_ray(camera, frame.columns, frame.first_pixel + pixel, ray_in);
-    for (int k = 0; k < 3; k++)
-        direction[k] = ray_in[k] - 2.0f * pixel_dot(ray_in, at.normal) * at.normal[k];
-    for (uint c = 0; c < rays; c++) {
-        float weight = 1.0f, lit = background_lit[pixel];
-        if (is_diffuse) {
-            const uint word = met[(size_t)c * frame.pixel_count + pixel];
+    for (uint c = 0; c < cell_rays + gloss_count(material); c++) {
+        const uint n = c - cell_rays;
+        uint word;
+        float weight = specular / (float)gloss_count(material);
+        if (c < cell_rays) {
+            word = met[(size_t)c * frame.pixel_count + pixel];
             hemisphere_lanes_direction(&lobe.view.axes, cell + 4u * c, direction);
-            weight = cell[4u * c + 3u];
-            lobe.ring = ring_of_cell(cells, c);
+            weight = (1.0f - specular) * cell[4u * c + 3u];
             weight *= direction[2] > 0.0f ? lobe.view.above : lobe.view.below;
-            lit = word != RECORD_NONE && (word & HEMISPHERE_LIT) ? 1.0f : 0.0f;
+            lobe.first = material.lobe_first;
+            lobe.ring = ring_of_cell(cells, c);
+        } else {
+            word = gloss_met(frame, material, background[pixel].facet, background_lit[pixel],
+                             gloss_words, pixel, n);
+            gloss_direction(frame, camera, &at, material, pixel, n, direction);
+            lobe.first = RECORD_NONE;
         }
+        const float lit = word != RECORD_NONE && (word & HEMISPHERE_LIT) ? 1.0f : 0.0f;
         const body_ray r = look(&trees, from, frame, &at, direction, weight, lit);
         if (r.way.length_m[0] > 0.0f || r.sun.length_m[0] > 0.0f)
             add_change(&r, &lobe, from, frame, tables,

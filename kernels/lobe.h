@@ -17,6 +17,9 @@
 /* Below this roughness a lobe is a mirror's. */
 #define LOBE_SMOOTH 1e-4f
 
+/* Rays that sample the specular lobe of a rough surface. */
+#define LOBE_RAYS 32u
+
 /* The diffuse lobe without its 1/pi and (1 - e) at the sensor's angle: (1 - e_i) / (1 - e_hemi). The
  * whole, (1 - e_i) (1 - e_o) / (pi (1 - e_hemi)), is the same both ways and loses nothing.
  *   arriving          emissivity at the angle that light comes from
@@ -139,11 +142,11 @@ static inline void lobe_sample(float roughness, const float *normal, const float
 
 /* Ray `ray` of `count` of a pixel's specular lobe: points of a lattice, two numbers that the golden
  * ratio spreads evenly, moved together by what the pixel draws (Cranley and Patterson, 1976).
- *   pixel   its number in the image */
-static inline void lobe_ray(float roughness, const float *normal, const float *to_sensor,
+ *   pixel   its number in the picture, samples counted */
+static inline void lobe_ray(float roughness, const float *normal, const float *to_sensor, uint seed,
                             uint pixel, uint ray, uint count, float *out)
 {
-    const uint key[2] = {0u, 0x6c6f6265u}; /* "lobe" */
+    const uint key[2] = {seed, RANDOM_LOBE};
     uint word[4] = {pixel, 0u, 0u, 0u};
 
     random_words(key, word);

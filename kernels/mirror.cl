@@ -1,10 +1,10 @@
 #include "camera.h"
 #include "ray.h"
 
-/* Replaces the background of specular targets by what the mirrored ray meets (thesis 2.5.6): a facet
+/* Replaces the background of targets with a specular share by what the mirrored ray meets (thesis 2.5.6): a facet
  * (shape factor 0) or the sky (1).
  * Launch: (count). facet, temperature_k: per facet, the ground's too; material: per material;
- * hit: per pixel; background: per pixel, changed where the target is specular */
+ * hit: per pixel; background: per pixel, changed where the target has a specular share */
 kernel void mirror(const uint count, const camera_record camera, const world_record world,
                    global const bvh_node *nodes, global const bvh_block *blocks,
                    global const facet_record *facet, global const float *temperature_k,
@@ -15,7 +15,7 @@ kernel void mirror(const uint count, const camera_record camera, const world_rec
     if (i >= count) return;
     const hit_record at = hit[i];
     if (at.facet == RECORD_NONE) return;
-    if (material[facet[at.facet].material].specular_share < 0.5f) return;
+    if (material[facet[at.facet].material].specular_share == 0.0f) return;
 
     background_record back = {.shape_factor = 1.0f, .material = RECORD_NONE, .facet = RECORD_NONE};
     float direction[3], towards = 0.0f;

@@ -12,6 +12,8 @@
 #define INTERACTION_DIFFUSE 1u
 #define INTERACTION_SPECULAR_SKY 2u
 #define INTERACTION_SPECULAR_BACKGROUND 3u
+#define INTERACTION_PARTLY_SKY 4u /* a specular share between 0 and 1 */
+#define INTERACTION_PARTLY_BACKGROUND 5u
 
 typedef struct pixel_state {
     uint interaction;
@@ -109,9 +111,12 @@ static inline void pixel_set_background(pixel_state *state, radiometry_record fr
 /* Which of the interactions a ray has that met a target. */
 static inline uint pixel_interaction(material_record target, background_record background)
 {
-    if (target.specular_share < 0.5f) return INTERACTION_DIFFUSE;
-    return background.facet == RECORD_NONE ? INTERACTION_SPECULAR_SKY
-                                           : INTERACTION_SPECULAR_BACKGROUND;
+    const uint is_sky = background.facet == RECORD_NONE;
+
+    if (target.specular_share == 0.0f) return INTERACTION_DIFFUSE;
+    if (target.specular_share < 1.0f)
+        return is_sky ? INTERACTION_PARTLY_SKY : INTERACTION_PARTLY_BACKGROUND;
+    return is_sky ? INTERACTION_SPECULAR_SKY : INTERACTION_SPECULAR_BACKGROUND;
 }
 
 /* Sets where the target sends the sun's light in exact mode; thesis mode knows none of it. */

@@ -8,9 +8,9 @@
 /* LANES_WIDTH neighbouring pixels; a lane past the end is a missed one. */
 typedef struct incident_group {
     uint first, lane_count;
-    uint diffuse; /* a bit per lane that is */
-    uint kind[LANES_WIDTH], facet[LANES_WIDTH];
-    uint lobe[LANES_WIDTH]; /* first row of the diffuse lobe, RECORD_NONE: Lambertian */
+    uint diffuse;                /* a bit per lane that is, wholly or partly */
+    float specular[LANES_WIDTH]; /* share */
+    uint lobe[LANES_WIDTH];      /* first row of the diffuse lobe, RECORD_NONE: Lambertian */
     diffuse_view view;
 } incident_group;
 

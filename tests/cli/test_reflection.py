@@ -133,3 +133,90 @@ def test_an_enclosure_of_lobes_is_black(program, radiance, tmp_path):
 
     expected = radiance.band_planck(*LWIR, 300)
     assert got.planes["radiance_lwir"] == pytest.approx(expected, rel=BAND)
+
+
+def hall(**floor):
+    """A floor under a black ceiling at 350 K that half covers it, a sky elsewhere."""
+    mesh = ("usemtl floor\nv -50 -50 0\nv 50 -50 0\nv 50 50 0\nv -50 50 0\nf 1 2 3 4\n"
+            "usemtl ceiling\nv -50 0 9\nv 50 0 9\nv 50 50 9\nv -50 50 9\nf 5 8 7 6\n")
+    materials = [{"name": "floor", "emissivity": 0.3, "temperature_k": 290.0, **floor},
+                 {"name": "ceiling", "emissivity": 1.0, "temperature_k": 350.0}]
+    camera = {"position_m": [0.0, -20.0, 8.0], "target_m": [0.0, -1.0, 0.0],
+              "focal_length_mm": 18.0, "pixels": [32, 24]}
+    return {"meshes": {"hall.obj": mesh}, "geometry": [{"file": "hall.obj"}], "material": materials,
+            "camera": camera}
+
+
+def render_hall(program, folder, name, **floor):
+    into = folder / name
+    into.mkdir()
+    return program.render(into, **hall(**floor), atmosphere={
+        "uniform": {**program.vacuum, "sky_radiance_w_m2_sr_um": 5.0}}).planes
+
+
+def test_a_specular_share_mixes_the_diffuse_and_the_specular_surface(program, tmp_path):
+    diffuse = render_hall(program, tmp_path, "diffuse", specular_share=0.0)
+    mirror = render_hall(program, tmp_path, "mirror", specular_share=1.0)
+    mixed = render_hall(program, tmp_path, "mixed", specular_share=0.3)
+
+    expected = 0.7 * diffuse["radiance_lwir"].astype(float) + 0.3 * mirror["radiance_lwir"]
+    assert mixed["radiance_lwir"] == pytest.approx(expected, rel=1e-6)
+    assert set(np.unique(mirror["interaction"])) >= {2, 3}
+    on_floor = mirror["interaction"] >= 2
+    assert (mixed["interaction"][on_floor] == mirror["interaction"][on_floor] + 2).all()
+
+
+@pytest.mark.parametrize("share, alike", [(0.49, 0.0), (0.5, 1.0)])
+def test_the_thesis_knows_no_shares_between(program, tmp_path, share, alike):
+    pictures = []
+    for name, value in (("a", share), ("b", alike)):
+        into = tmp_path / name
+        into.mkdir()
+        pictures.append(program.render(into, "--mode", "thesis", **hall(specular_share=value, roughness=0.2)))
+
+    a, b = (p.planes["radiance_lwir"] for p in pictures)
+    assert a.tobytes() == b.tobytes()
+
+
+def test_a_rough_mirror_in_an_enclosure_is_black(program, radiance, tmp_path):
+    box = "usemtl wall\n" + "".join(
+        f"v {x} {y} {z + 0.3 * x - 0.2 * y}\n" for z in (0, 4) for x, y in ((-2, -2), (2, -2), (2, 2), (-2, 2)))
+    box += "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n"
+    camera = {"position_m": [0.9, -0.7, 2.5], "target_m": [-0.9, 0.8, 1.0], "focal_length_mm": 12.0,
+              "pixels": [24, 20]}
+    wall = {**write_emissivity(tmp_path, emits), "specular_share": 0.6, "roughness": 0.3}
+
+    got = program.render(tmp_path, meshes={"box.obj": box}, geometry=[{"file": "box.obj"}],
+                         material=[wall], camera=camera)
+
+    expected = radiance.band_planck(*LWIR, 300)
+    assert got.planes["radiance_lwir"] == pytest.approx(expected, rel=BAND)
+
+
+def ggx(roughness, view, sun):
+    """The lobe for directions with z along the normal, well above the horizon, per sr: Walter and
+    others (2007), what is turned up from below left out."""
+    half = (view + sun) / np.linalg.norm(view + sun)
+    a2 = roughness**2
+    spread = a2 * half[2] ** 2 + half[0] ** 2 + half[1] ** 2
+    return a2 / np.pi / spread**2 / (2 * (view[2] + np.sqrt(a2 + (1 - a2) * view[2] ** 2)))
+
+
+def test_the_sun_stands_in_a_rough_mirror_with_the_density_of_its_lobe(program, tmp_path):
+    time = "1992-03-20T12:00:00+00:00"  # at the equator, 2 degrees from the zenith
+    zenith, azimuth = np.radians(sun_angles(program, time))
+    sun = np.array([np.sin(zenith) * np.sin(azimuth), np.sin(zenith) * np.cos(azimuth), np.cos(zenith)])
+    uniform = {**program.vacuum, "sun_irradiance_w_m2_um": 50.0}
+    for view_deg in (3.0, 20.0):
+        folder = tmp_path / f"{view_deg}"
+        folder.mkdir()
+
+        got = program.render(
+            folder, "--planes", "reflected_sun_lwir", camera=seen_from(view_deg, 90.0),
+            site={**NOON, "time": time}, atmosphere={"uniform": uniform},
+            material=[{"name": "wall", "emissivity": 0.4, "temperature_k": 300.0,
+                       "specular_share": 1.0, "roughness": 0.1}])
+
+        view = np.array([np.sin(np.radians(view_deg)), 0, np.cos(np.radians(view_deg))])
+        expected = 0.6 * 6 * 50 * ggx(np.hypot(0.1, 4.6505e-3 / 2), view, sun)
+        assert got.planes["reflected_sun_lwir"] == pytest.approx(expected, rel=2e-3)

@@ -146,7 +146,7 @@ class Reference:
 
     def is_specular(self, pixel):
         facet = self.case.facets[self.case.hit["facet"][pixel]]
-        return self.case.materials[facet["material"]]["specular_share"] >= 0.5
+        return self.case.materials[facet["material"]]["specular_share"] > 0
 
     def background(self, pixel):
         """e_B B(T_B) + E_S/pi tau1 tau_SB cos(theta_B) (1 - e_B), and e_B."""
@@ -192,7 +192,7 @@ class Reference:
         material = case.materials[case.facets["material"][hit["facet"]]]
         normal = hit["normal"].astype(np.float64)
         kind = DIFFUSE
-        if material["specular_share"] == 1:
+        if material["specular_share"] > 0:
             kind = SPECULAR_SKY if b["facet"] == NONE else SPECULAR_BACKGROUND
         view = angle_deg(-normal @ ray)
         e = self.emissivity(material, 0.0 if self.frame["thesis"] and kind == DIFFUSE else view)
@@ -285,7 +285,7 @@ class Case:
 
     def set_materials(self):
         self.materials = np.zeros(6, records.MATERIAL)
-        self.materials["specular_share"] = [0, 1, 0, 1, 0, 1]
+        self.materials["specular_share"] = [0, 1, 0, 1, 0, 0.25]
         self.materials["emissivity_angles"] = [91, 91, 1, 1, 91, 91]
         rows = np.cumsum(self.materials["emissivity_angles"])
         self.materials["emissivity_first"] = np.concatenate([[0], rows[:-1]])
@@ -350,7 +350,7 @@ class Case:
         normal *= -np.sign((normal * ray).sum(1))[:, None]
         self.hit["normal"], self.hit["range_m"] = normal, random.uniform(500, 2000, n)
         self.hit["point"] = self.camera["position"] + self.hit["range_m"][:, None] * ray
-        specular = self.materials["specular_share"][self.facets["material"][self.hit["facet"]]] == 1
+        specular = self.materials["specular_share"][self.facets["material"][self.hit["facet"]]] > 0
         alone = random.random(n) < 0.4
         missed = random.random(n) < 0.15
         self.hit["facet"][missed], self.hit["range_m"][missed] = NONE, np.inf

@@ -83,7 +83,7 @@ def test_a_smooth_surface_shows_the_solar_disc(opencl, view_deg):
 def samples(opencl, roughness, view, count=64):
     """Directions of `count` rays of COUNT / count pixels, shape (3, COUNT)."""
     body = (f"const float v[3] = {vector(view)}, n[3] = {vector(NORMAL)};"
-            f"lobe_ray({roughness!r}f, n, v, (uint)in0[i], (uint)in1[i], {count}u, out);")
+            f"lobe_ray({roughness!r}f, n, v, 7u, (uint)in0[i], (uint)in1[i], {count}u, out);")
     pixel, ray = np.divmod(np.arange(COUNT), count)
     out = probe.probe(opencl, "lobe.h", body, [pixel, ray], outputs=3, options="-DSPECTRUM_WIDTH=1")
     return AXES.T @ out.astype(float)
