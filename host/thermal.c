@@ -154,7 +154,7 @@ static status compute(const thermal *t, const batch *b, thermal_span span, float
     status rc = STATUS_OK;
     device_memory facets = NULL, lit = NULL, temperature_k = NULL;
     const size_t bytes = span.row_count * b->count * sizeof(float);
-    const device_shape shape = shape1((b->count + LANES - 1) / LANES);
+    const device_shape shape = {{(b->count + LANES - 1) / LANES, 1}, 4};
 
     span.facet_count = (uint)b->count;
     span.sunlit_words = b->word_count;
