@@ -128,11 +128,12 @@ static inline void lobe_sample(float roughness, const float *normal, const float
     const float a = radius * cos(turn), share = 0.5f * (1.0f + z);
     const float b = (1.0f - share) * sqrt(1.0f - a * a) + share * radius * sin(turn);
     const float c = sqrt(fmax(1.0f - a * a - b * b, 0.0f));
-    const float slope[3] = {roughness * (c * x - b * z), roughness * a, fmax(b * x + c * z, 0.0f)};
+    const float steep = fmax(b * x + c * z, 0.0f);
+    const float slope[3] = {roughness * (c * x - b * z), roughness * a, steep};
     const float size = lobe_dot(slope, slope);
     const float towards = 2.0f * (slope[0] * level + slope[2] * up) / size;
-    const float turned[3] = {towards * slope[0] - level, towards * slope[1],
-                             fabs(towards * slope[2] - up)};
+    const float above = fabs(towards * slope[2] - up);
+    const float turned[3] = {towards * slope[0] - level, towards * slope[1], above};
     float along[3], across[3];
 
     lobe_axes(normal, to_sensor, along, across);
