@@ -317,6 +317,24 @@ def test_a_slab_of_biot_number_one_cools_as_the_series_says(thermal):
         assert np.interp(number, fourier, surface) == pytest.approx(expected, abs=0.005)
 
 
+@pytest.mark.parametrize("thickness_m, exposed_area, material", [
+    (0.02, 0.5, {}), (0.1, -0.5, {}), (0.001, 0.5, {"conductivity_w_m_k": 54.0})],
+    ids=["lump", "slab", "sheet"])
+def test_energy_closes_over_a_day_as_therm_has_it(thermal, thickness_m, exposed_area, material):
+    """Days alike: what the front takes in on the last of them it gives back, to .1 %."""
+    facets, materials = one_facet(thickness_m, exposed_area, solar_absorptance=0.9, thermal_emissivity=0.9,
+                                  **material)
+    hour = np.arange(10 * 96 + 1) * 0.25
+    forcing = steady_forcing(len(hour), convection_w_m2_k=12.0, sky_longwave_w_m2=300.0)
+    forcing["direct_w_m2"] = 700 * np.maximum(0, np.sin(2 * np.pi * (hour - 6) / 24)) ** 2
+
+    front = thermal(facets, materials, forcing)[-96:, 0].astype(float)
+
+    absorbed = 0.9 * forcing["direct_w_m2"][-96:].astype(float)
+    lost = 0.9 * (SIGMA * front**4 - 300.0) + 12.0 * (front - 290.0)
+    assert lost.mean() == pytest.approx(absorbed.mean(), rel=1e-3)
+
+
 def test_cold_rain_cools_a_level_facet_and_leaves_a_ceiling_dry(thermal):
     facets, materials = one_facet(0.05, 0.5)
     facets = np.repeat(facets, 2)
