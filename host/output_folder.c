@@ -1,6 +1,7 @@
 #include "output_folder.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,7 @@ struct output_folder {
     char *made;         /* shape (length of the path + 1): 1 where a part that was made ends */
     output_file **file; /* shape (file_count) */
     size_t file_count;
+    pthread_mutex_t lock; /* of the list of files */
     bool committed;
 };
 
@@ -64,6 +66,7 @@ status output_folder_open(output_folder **out, const char *path)
     output_folder *folder = calloc(1, sizeof *folder);
 
     NEED(folder, STATUS_MEMORY, "%s: no memory to make it", path);
+    pthread_mutex_init(&folder->lock, NULL);
     folder->path = strdup(path[0] ? path : ".");
     NEED(folder->path, STATUS_MEMORY, "%s: no memory to make it", path);
     folder->made = calloc(strlen(folder->path) + 1, 1);
@@ -83,6 +86,7 @@ status output_folder_add(output_folder *folder, const char *name, const output_f
     char *path = malloc(size);
     output_file **more = NULL;
 
+    pthread_mutex_lock(&folder->lock);
     NEED(path, STATUS_MEMORY, "%s: no memory to write it", name);
     snprintf(path, size, "%s/%s", folder->path, name);
     more = realloc(folder->file, (folder->file_count + 1) * sizeof(output_file *));
@@ -91,6 +95,7 @@ status output_folder_add(output_folder *folder, const char *name, const output_f
     TRY(output_file_reserve(&folder->file[folder->file_count], path));
     *out = folder->file[folder->file_count++];
 out:
+    pthread_mutex_unlock(&folder->lock);
     free(path);
     return rc;
 }
@@ -136,6 +141,7 @@ void output_folder_free(output_folder *folder)
     if (!folder) return;
     for (size_t i = 0; i < folder->file_count; i++) output_file_free(folder->file[i]);
     if (folder->made && !folder->committed) remove_made(folder);
+    pthread_mutex_destroy(&folder->lock);
     free(folder->made);
     free(folder->file);
     free(folder->path);

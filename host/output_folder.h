@@ -12,7 +12,7 @@ typedef struct output_folder output_folder;
 status output_folder_open(output_folder **out, const char *path);
 
 /* Reserves the file `name` of the folder, to be written under its temporary path. It belongs to the
- * folder, which commits it. */
+ * folder, which commits it. Several threads may add at once. */
 status output_folder_add(output_folder *folder, const char *name, const output_file **out);
 
 /* Renames every file added to its name. Each must have been written and closed. */

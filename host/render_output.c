@@ -1,6 +1,7 @@
 #include "render_output.h"
 
 #include "clock.h"
+#include "errand.h"
 #include "quick_look.h"
 #include "render_pool.h"
 #include "render_probe.h"
@@ -23,7 +24,20 @@ typedef struct writing {
     float **values;               /* shape (plane_count): of the image's plane, NULL: not wanted */
     char time[SITE_TIME_SIZE];
     image_label *materials;
+    render_report_input *inputs; /* shape (s->input_count) */
+    image_header header;
 } writing;
+
+typedef struct drawing {
+    output_folder *folder;
+    char name[512];
+    quick_look look;
+} drawing;
+
+typedef struct drawings {
+    drawing *list;
+    size_t count;
+} drawings;
 
 /* True if `name` stands in a list of names with commas between. */
 static bool is_listed(const char *list, const char *name)
@@ -121,7 +135,8 @@ static status open_writing(writing *w, const scene *s, device *const *dev, size_
     TRY(check_names(w));
     w->values = calloc(w->plane_count, sizeof *w->values);
     w->materials = malloc((s->material_count + 1) * sizeof *w->materials);
-    NEED(w->values && w->materials, STATUS_MEMORY, "no memory for the list of planes");
+    w->inputs = calloc(s->input_count + 1, sizeof *w->inputs);
+    NEED(w->values && w->materials && w->inputs, STATUS_MEMORY, "no memory for the list of planes");
     for (uint32_t i = 0; i < s->material_count; i++)
         w->materials[i] =
             (image_label){(int32_t)s->materials[i].record.number, s->materials[i].name};
@@ -138,6 +153,7 @@ static void free_writing(writing *w)
     image_free(w->truth);
     image_free(w->cube);
     output_folder_free(w->folder);
+    free(w->inputs);
     free(w->materials);
     free(w->values);
 }
@@ -194,77 +210,92 @@ static bool is_pictured(const writing *w, size_t plane)
     return index == 0 || index == bands / 2 || index == bands - 1;
 }
 
-static status write_pictures(const writing *w)
+static status write_picture(void *self)
+{
+    const drawing *d = self;
+
+    return quick_look_write(d->folder, d->name, &d->look);
+}
+
+static void add_drawing(writing *w, drawings *to, const image_plane *plane, const float *value)
+{
+    drawing *d = &to->list[to->count++];
+
+    d->folder = w->folder;
+    file_name(d->name, w->s, plane->name, ".png");
+    d->look = (quick_look){.columns = (uint32_t)w->s->camera.columns,
+                           .rows = (uint32_t)w->s->camera.rows,
+                           .value = value,
+                           .scene = w->s->name,
+                           .time = w->time,
+                           .plane = plane->name,
+                           .unit = plane->unit};
+}
+
+static status list_drawings(writing *w, drawings *to)
 {
     status rc = STATUS_OK;
-    char name[512];
 
+    to->list = calloc(w->plane_count + w->s->band_count, sizeof *to->list);
+    NEED(to->list, STATUS_MEMORY, "no memory for the list of pictures");
     for (size_t i = 0; i < w->plane_count; i++) {
         const render_plane *p = &w->planes[i];
         if (!w->values[i] || !is_pictured(w, i)) continue;
-        const quick_look look = {
-            .columns = (uint32_t)w->s->camera.columns,
-            .rows = (uint32_t)w->s->camera.rows,
-            .value = w->values[i],
-            .scene = w->s->name,
-            .time = w->time,
-            .plane = p->name,
-            .unit = p->plane.unit,
-            .colours = quick_look_colours_of(&p->plane),
-        };
-        const quick_look complete = labelled(w, p, look);
-        TRY(quick_look_write(w->folder, file_name(name, w->s, p->name, ".png"), &complete));
+        add_drawing(w, to, &p->plane, w->values[i]);
+        quick_look *look = &to->list[to->count - 1].look;
+        look->colours = quick_look_colours_of(&p->plane);
+        *look = labelled(w, p, *look);
     }
+    for (uint32_t i = 0; w->sensor && i < w->s->band_count; i++)
+        if (is_pictured(w, i))
+            add_drawing(w, to, image_plane_at(w->sensor, i), image_values(w->sensor, i));
 out:
     return rc;
 }
 
-/* What the sensor makes of the radiance, if the scene says how. */
-static status write_sensor(writing *w, const image_header *header)
+static status write_exr(void *self)
 {
-    status rc = STATUS_OK;
+    const writing *w = self;
+    image *const images[] = {w->cube, w->truth};
     char name[512];
 
-    if (!w->s->sensor.is_wanted) return STATUS_OK;
-    TRY(render_sensor_write(&w->sensor, w->folder, w->s, render_pool_device(w->pool, 0), w->cube,
-                            header));
-    for (uint32_t i = 0; i < w->s->band_count; i++) {
-        const image_plane *plane = image_plane_at(w->sensor, i);
-        const quick_look look = {.columns = image_columns(w->sensor),
-                                 .rows = image_rows(w->sensor),
-                                 .value = image_values(w->sensor, i),
-                                 .scene = w->s->name,
-                                 .time = w->time,
-                                 .plane = plane->name,
-                                 .unit = plane->unit};
-        if (!is_pictured(w, i)) continue;
-        TRY(quick_look_write(w->folder, file_name(name, w->s, plane->name, ".png"), &look));
-    }
+    return image_write_exr(w->folder, file_name(name, w->s, "", ".exr"), images, w->truth ? 2 : 1,
+                           &w->header);
+}
+
+static status hash_inputs(void *self)
+{
+    writing *w = self;
+
+    return render_summary_hash(w->inputs, w->s);
+}
+
+/* Pictures, OpenEXR and the inputs' hashes; what takes longest first. */
+static status write_pictures(writing *w)
+{
+    status rc = STATUS_OK;
+    drawings pictures = {0};
+    errand *list = NULL;
+    size_t count = 0;
+
+    TRY(list_drawings(w, &pictures));
+    list = calloc(pictures.count + 2, sizeof *list);
+    NEED(list, STATUS_MEMORY, "no memory for the list of pictures");
+    if (w->s->band_count <= RENDER_OUTPUT_BANDS || w->options->wants_exr)
+        list[count++] = (errand){write_exr, w};
+    list[count++] = (errand){hash_inputs, w};
+    for (size_t i = 0; i < pictures.count; i++)
+        list[count++] = (errand){write_picture, &pictures.list[i]};
+    TRY(errand_run(list, count));
 out:
+    free(list);
+    free(pictures.list);
     return rc;
 }
 
-static status write_files(writing *w, double start)
+static status write_summary(writing *w, double start)
 {
-    status rc = STATUS_OK;
-    char description[512], name[512];
-    const image_field field = {
-        .key = "radsig materials", .label = w->materials, .label_count = w->s->material_count};
-    const image_header header = {description, w->time, &field, 1};
-    image *const images[] = {w->cube, w->truth};
-
-    snprintf(description, sizeof description, "radsig %s, scene %s, %s mode", RADSIG_VERSION,
-             w->s->name, w->s->thesis ? "thesis" : "exact");
-    TRY(write_pictures(w));
-    if (w->s->band_count <= RENDER_OUTPUT_BANDS || w->options->wants_exr)
-        TRY(image_write_exr(w->folder, file_name(name, w->s, "", ".exr"), images, w->truth ? 2 : 1,
-                            &header));
-    TRY(image_finish(w->cube, &header));
-    if (w->truth) TRY(image_finish(w->truth, &header));
-    TRY(write_sensor(w, &header));
-    if (w->options->wants_probe)
-        TRY(render_probe_write(w->folder, w->s, render_pool_render(w->pool), w->options->probe[0],
-                               w->options->probe[1]));
+    char name[512];
     const render_summary summary = {.s = w->s,
                                     .scene_path = w->options->scene_path,
                                     .planes = w->planes,
@@ -272,9 +303,33 @@ static status write_files(writing *w, double start)
                                     .plane_count = w->plane_count,
                                     .sensor = w->sensor,
                                     .materials = w->materials,
+                                    .inputs = w->inputs,
                                     .pool = w->pool,
                                     .start_s = start};
-    TRY(render_summary_write(w->folder, file_name(name, w->s, "", ".json"), &summary));
+
+    return render_summary_write(w->folder, file_name(name, w->s, "", ".json"), &summary);
+}
+
+static status write_files(writing *w, double start)
+{
+    status rc = STATUS_OK;
+    char description[512];
+    const image_field field = {
+        .key = "radsig materials", .label = w->materials, .label_count = w->s->material_count};
+
+    snprintf(description, sizeof description, "radsig %s, scene %s, %s mode", RADSIG_VERSION,
+             w->s->name, w->s->thesis ? "thesis" : "exact");
+    w->header = (image_header){description, w->time, &field, 1};
+    if (w->s->sensor.is_wanted) /* what the sensor makes of the radiance */
+        TRY(render_sensor_write(&w->sensor, w->folder, w->s, render_pool_device(w->pool, 0),
+                                w->cube, &w->header));
+    TRY(write_pictures(w));
+    TRY(image_finish(w->cube, &w->header));
+    if (w->truth) TRY(image_finish(w->truth, &w->header));
+    if (w->options->wants_probe)
+        TRY(render_probe_write(w->folder, w->s, render_pool_render(w->pool), w->options->probe[0],
+                               w->options->probe[1]));
+    TRY(write_summary(w, start));
     NEED(!*w->options->stop, STATUS_INTERRUPTED, "interrupted");
     TRY(output_folder_commit(w->folder));
 out:

@@ -1,7 +1,6 @@
 #include "render_summary.h"
 
 #include "clock.h"
-#include "render_report.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +11,6 @@ enum { STAGE_LIMIT = 256, DEVICE_TEXT = 1024, SETTING_COUNT = 7 };
 typedef struct lists {
     render_report_band *bands;
     image_plane *planes;
-    render_report_input *inputs;
     size_t plane_count;
     render_report_stage stages[STAGE_LIMIT];
     size_t stage_count;
@@ -32,12 +30,12 @@ static void list_bands(lists *l, const scene *s)
     }
 }
 
-static status list_inputs(lists *l, const scene *s)
+status render_summary_hash(render_report_input *out, const scene *s)
 {
     status rc = STATUS_OK;
 
     for (size_t i = 0; i < s->input_count; i++) {
-        render_report_input *input = &l->inputs[i];
+        render_report_input *input = &out[i];
         input->path = s->inputs[i].name;
         TRY(render_report_hash(s->inputs[i].path, input->sha256, &input->bytes));
     }
@@ -82,14 +80,12 @@ static status gather(lists *l, const render_summary *summary)
     const size_t sensor_count = summary->sensor ? image_plane_count(summary->sensor) : 0;
 
     l->planes = calloc(summary->plane_count + sensor_count, sizeof *l->planes);
-    l->inputs = calloc(s->input_count, sizeof *l->inputs);
-    NEED(l->bands && l->planes && l->inputs, STATUS_MEMORY, "no memory for the report");
+    NEED(l->bands && l->planes, STATUS_MEMORY, "no memory for the report");
     list_bands(l, s);
     for (size_t i = 0; i < summary->plane_count; i++)
         if (summary->values[i]) l->planes[l->plane_count++] = summary->planes[i].plane;
     for (size_t i = 0; i < sensor_count; i++)
         l->planes[l->plane_count++] = *image_plane_at(summary->sensor, i);
-    TRY(list_inputs(l, s));
     TRY(list_stages(l, summary));
 out:
     return rc;
@@ -148,7 +144,7 @@ status render_summary_write(output_folder *folder, const char *name, const rende
         .material_count = s->material_count,
         .setting = settings,
         .setting_count = summary->sensor ? SETTING_COUNT : SETTING_COUNT - 2,
-        .input = l.inputs,
+        .input = summary->inputs,
         .input_count = s->input_count,
         .warnings = status_warnings_so_far(),
         .stage = l.stages,
@@ -158,6 +154,5 @@ status render_summary_write(output_folder *folder, const char *name, const rende
 out:
     free(l.bands);
     free(l.planes);
-    free(l.inputs);
     return rc;
 }
