@@ -1,9 +1,12 @@
 #include "command.h"
 #include "command_scene.h"
 #include "command_value.h"
+#include "errand.h"
+#include "pocl_affinity.h"
 #include "render_output.h"
 
 #include <getopt.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -156,21 +159,53 @@ static int take_arguments(arguments *a, int argc, char **argv)
     return -1;
 }
 
+/* What is read and opened for a render; the devices get ready while the scene is read. */
+typedef struct opening {
+    const arguments *a;
+    scene *s;
+    device *dev[DEVICE_LIMIT];
+    atomic_bool is_vain; /* the scene has failed */
+} opening;
+
+static status read_scene(void *self)
+{
+    status rc = STATUS_OK;
+    opening *o = self;
+
+    TRY(command_scene_read(&o->s, o->a->output.scene_path, &o->a->settings));
+    if (o->a->bands) TRY(scene_keep_bands(o->s, o->a->bands));
+out:
+    if (rc != STATUS_OK) o->is_vain = true;
+    return rc;
+}
+
+static status open_devices(void *self)
+{
+    status rc = STATUS_OK;
+    opening *o = self;
+
+    for (size_t i = 0; i < o->a->device_count && !o->is_vain; i++)
+        TRY(device_open(&o->dev[i], o->a->device[i]));
+    for (size_t i = 0; i < o->a->device_count && !o->is_vain; i++)
+        render_prepare(o->dev[i], &o->is_vain);
+out:
+    return rc;
+}
+
 static status run(const arguments *a)
 {
     status rc = STATUS_OK;
-    scene *s = NULL;
-    device *dev[DEVICE_LIMIT] = {NULL};
+    opening o = {.a = a};
+    const errand list[] = {{read_scene, &o}, {open_devices, &o}};
 
-    TRY(command_scene_read(&s, a->output.scene_path, &a->settings));
-    if (a->bands) TRY(scene_keep_bands(s, a->bands));
-    for (size_t i = 0; i < a->device_count; i++) TRY(device_open(&dev[i], a->device[i]));
-    TRY(render_output(s, dev, a->device_count, &a->output));
+    pocl_affinity_set(); /* the environment is another thread's later */
+    TRY(errand_run(list, sizeof list / sizeof *list));
+    TRY(render_output(o.s, o.dev, a->device_count, &a->output));
 out:
     /* A signal can also break off what the system was doing. */
     if (rc != STATUS_OK && stop) rc = status_set(STATUS_INTERRUPTED, "interrupted");
-    for (size_t i = 0; i < a->device_count; i++) device_free(dev[i]);
-    scene_free(s);
+    for (size_t i = 0; i < a->device_count; i++) device_free(o.dev[i]);
+    scene_free(o.s);
     return rc;
 }
 

@@ -333,6 +333,13 @@ out:
     return rc;
 }
 
+status device_prepare(device *dev, const char *name)
+{
+    size_t index;
+
+    return find_kernel(dev, name, &index);
+}
+
 static status set_arguments(device *dev, const device_kernel *kernel,
                             const device_argument *arguments, size_t argument_count)
 {

@@ -71,6 +71,9 @@ typedef struct device_argument {
 /* A kernel argument: device_memory or a scalar or record; `value` must be a variable. */
 #define ARG(value) ((device_argument){sizeof(value), &(value)})
 
+/* Builds kernel `name` before its first launch, so that it need not be waited for there. */
+status device_prepare(device *dev, const char *name);
+
 /* Launches kernel `name` over a shape; x is padded to the local size, so the kernel returns where
  * its index is past the end. A failure names kernel, shape and error; the build log is in the
  * message.
@@ -81,7 +84,7 @@ typedef struct device_argument {
 status device_launch(device *dev, const char *name, device_shape shape,
                      const device_argument *arguments, size_t argument_count);
 
-/* Time on the device per kernel since it was opened. */
+/* Time on the device per kernel since it was opened; one that was only prepared has no launches. */
 typedef struct device_time {
     const char *kernel;
     double seconds;

@@ -23,6 +23,17 @@ struct render {
     sun_memory *suns; /* NULL: the scene has one time */
 };
 
+void render_prepare(device *dev, const atomic_bool *is_vain)
+{
+    static const char *const kernel[] = {
+        "sun_history", "hemisphere",     "band_temperature", "background", "primary",   "sunlight",
+        "mirror",      "background_hit", "sun_times",        "truth",      "radiometry"};
+
+    for (size_t i = 0; i < sizeof kernel / sizeof *kernel && !*is_vain; i++)
+        device_prepare(dev, kernel[i]);
+    status_clear();
+}
+
 static void end_stage(render *r, const char *name)
 {
     const double end = clock_now_s();

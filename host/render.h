@@ -14,7 +14,13 @@
 #include "spectra.h"
 #include "temperature.h"
 
+#include <stdatomic.h>
+
 typedef struct render render;
+
+/* Builds the kernels that every render launches, which takes a while, until they are built or `is_vain`
+ * is set. One that fails is built again, and told of, where it is launched. */
+void render_prepare(device *dev, const atomic_bool *is_vain);
 
 /* Does all that the pixels share. The scene and the device must outlive it. */
 status render_open(render **out, const scene *s, device *dev);

@@ -64,7 +64,8 @@ static status list_stages(lists *l, const render_summary *summary)
     for (size_t d = 0; (dev = render_pool_device(summary->pool, d)); d++) {
         if (d > 0) snprintf(label, sizeof label, "device %u kernel ", device_describe(dev)->index);
         TRY(device_times(dev, &times, &count));
-        for (size_t i = 0; i < count; i++) add_stage(l, label, times[i].kernel, times[i].seconds);
+        for (size_t i = 0; i < count; i++)
+            if (times[i].launches) add_stage(l, label, times[i].kernel, times[i].seconds);
     }
     add_stage(l, "", "all but reading", clock_now_s() - summary->start_s);
 out:

@@ -156,6 +156,21 @@ static void a_launch_reaches_every_item_and_none_past_the_end(void **state)
     device_release(to);
 }
 
+static void a_prepared_kernel_has_no_launches(void **state)
+{
+    const device_time *times = NULL;
+    device *own = NULL;
+    size_t kernels = 0;
+
+    (void)state;
+    assert_int_equal(device_open(&own, -1), STATUS_OK);
+    assert_int_equal(device_prepare(own, "background_hit"), STATUS_OK);
+    assert_int_equal(device_times(own, &times, &kernels), STATUS_OK);
+    assert_int_equal(kernels, 1);
+    assert_int_equal(times[0].launches, 0);
+    device_free(own);
+}
+
 static void launches_are_counted_and_timed(void **state)
 {
     enum { TIMES = 1100 }; /* more than are kept as events */
@@ -241,6 +256,7 @@ int main(void)
         cmocka_unit_test(more_memory_than_there_is_is_told_apart_from_other_failures),
         cmocka_unit_test(reading_past_the_end_fails_with_the_name_of_the_device),
         cmocka_unit_test(a_launch_reaches_every_item_and_none_past_the_end),
+        cmocka_unit_test(a_prepared_kernel_has_no_launches),
         cmocka_unit_test(launches_are_counted_and_timed),
         cmocka_unit_test(a_wrong_number_of_arguments_is_counted_out),
         cmocka_unit_test(a_wrong_argument_is_told_by_its_place),
