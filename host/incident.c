@@ -108,6 +108,7 @@ static incident_record how_of(const incident *in, const incident_pixels *p)
 
     how.light_length = p->light_length;
     how.is_of_facets = p->background == NULL;
+    how.keeps_sky = p->keeps_sky;
     return how;
 }
 

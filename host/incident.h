@@ -6,6 +6,8 @@
 #include "bodies.h"
 #include "shape_factor.h"
 
+#include <stdbool.h>
+
 typedef struct incident incident;
 
 /* Lays points of a quadrature over the table of the sky.
@@ -28,6 +30,7 @@ typedef struct incident_pixels {
     device_memory facet_background;           /* background_record, per facet, the ground's last */
     device_memory light;                      /* see interreflection.h */
     uint32_t light_length;
+    bool keeps_sky;      /* of facets: out holds the sky's part from before */
     device_memory gloss; /* see gloss.cl; NULL: nothing is rough */
     device_memory spectra, emissivity;
     const bodies *bodies;     /* NULL: none */

@@ -252,6 +252,7 @@ static status pass_on(const interreflection *f, const radiometry_record *frame, 
             .facet_background = f->background,
             .light = f->light,
             .light_length = f->spectra.sample_count,
+            .keeps_sky = depth > 2,
             .spectra = f->spectra.rows,
             .emissivity = f->spectra.emissivity,
         };

@@ -22,18 +22,24 @@ typedef struct incident_light {
     spectrum extra; /* radiance beyond the closure below */
 } incident_light;
 
-/* What such a facet radiates: its emission, the sun, its own share of the sky, and what else it
- * sees taken as black at its temperature, so that an enclosure of one temperature is black; and what
- * light between facets adds to that.
+/* What reaches such a facet: the sun, its own share of the sky, and what else it sees taken as black
+ * at its temperature, so that an enclosure of one temperature is black; and what light between facets
+ * adds to that.
  *   sun   E_S tau1; sky   integrated over the hemisphere */
+static inline spectrum incident_arriving(const incident_facet *f, spectrum black_body, spectrum sun,
+                                         spectrum sky, incident_light light)
+{
+    return sun_on_surface(sun, 1.0f, f->sun) * light.lobe +
+           radiance_from_above(f->shape_factor, sky, black_body) + light.extra;
+}
+
+/* What it radiates: its emission, and what it reflects of that. */
 static inline spectrum incident_radiance(const incident_facet *f, spectrum emissivity,
                                          spectrum black_body, spectrum sun, spectrum sky,
                                          incident_light light)
 {
     return background_radiance(emissivity, black_body,
-                               sun_on_surface(sun, 1.0f, f->sun) * light.lobe +
-                                   radiance_from_above(f->shape_factor, sky, black_body) +
-                                   light.extra);
+                               incident_arriving(f, black_body, sun, sky, light));
 }
 
 /* Adds a direction of the sky to the weights of the table's directions: bilinear.

@@ -211,7 +211,8 @@ typedef struct incident_record {
     uint
         is_of_facets; /* 1: all surfaces are taken as diffuse, and light has a float a sample; 0: it
                           has one a block of samples */
-    uint unused[3];
+    uint keeps_sky;   /* 1: what the sky brings is there already; of facets alone */
+    uint unused[2];
 } incident_record;
 RECORD_SIZE(incident_record, 32);
 

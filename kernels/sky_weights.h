@@ -22,6 +22,20 @@ static inline lanes lanes_of_bit(uint bits)
     return out;
 }
 
+/* Places of the lanes in a table of `count` rows from 0 by `step`, as lookup_regular finds one. */
+static inline lanes sky_rows_of(lanes value, float step, uint count)
+{
+    return count < 2u ? (lanes)0.0f : clamp(value / step, 0.0f, (float)(count - 1u));
+}
+
+/* Place `row` of such a table. */
+static inline lookup sky_row(float row, uint count)
+{
+    const uint low = (uint)row;
+
+    return (lookup){low, min(low + 1u, count - 1u), row - (float)low};
+}
+
 /* Adds to the weights of the table's directions what the cells that see the sky count more than
  * their share of it, and those that do not less. */
 static inline void sky_weigh_cells(lanes *weights, radiometry_record frame, const incident_group *g,
@@ -44,10 +58,13 @@ static inline void sky_weigh_cells(lanes *weights, radiometry_record frame, cons
         const lanes turn = atan2(direction[0], direction[1]) * degree;
         const lanes azimuth = turn < 0.0f ? turn + 360.0f : turn;
         const lanes zenith = acos(clamp(direction[2], -1.0f, 1.0f)) * degree;
+        const lanes upper = sky_rows_of(zenith, frame.zenith_step_deg, frame.zenith_count);
+        const lanes right = sky_rows_of(azimuth, frame.azimuth_step_deg, frame.azimuth_count);
         float *ring = (float *)(weights + (size_t)ring_of_cell(cells, c) * directions);
         for (uint i = 0; i < LANES_WIDTH; i++) {
             if (lane_of(&weight, i) == 0.0f) continue;
-            const sky_lookup at = sky_place(frame, lane_of(&zenith, i), lane_of(&azimuth, i));
+            const sky_lookup at = {sky_row(lane_of(&upper, i), frame.zenith_count),
+                                   sky_row(lane_of(&right, i), frame.azimuth_count)};
             incident_add_sky(ring + i, LANES_WIDTH, frame, at, lane_of(&weight, i));
         }
     }
