@@ -36,19 +36,19 @@ typedef struct probe {
     size_t count;
 } probe;
 
-/* Lists the samples without the ones that fill up a band, which repeat its last. */
+/* Lists the samples of each band: those that it gives a weight. */
 static void list_samples(probe *p, const spectra *bands)
 {
-    const float *weight = bands->rows + (size_t)SPECTRA_WEIGHT * bands->sample_count;
-
     for (uint32_t b = 0; b < bands->band_count; b++) {
         const double *nu = bands->wavenumber_cm1 + bands->bands[b].first_sample;
-        const uint32_t last = bands->bands[b].sample_count - 1;
+        const float *weight = bands->weight_um + bands->bands[b].first_weight;
+        uint32_t last = bands->bands[b].sample_count - 1;
+        while (weight[last] == 0.0f) last--;
         for (uint32_t i = 0; i <= last; i++) {
             const uint32_t source = bands->bands[b].first_sample + i;
-            if (i > 0 && nu[i] == nu[i - 1]) break;
+            if (weight[i] == 0.0f) continue;
             p->sample[p->count++] = (probe_sample){.wavelength_um = 1e4 / nu[i],
-                                                   .weight_um = (double)weight[source],
+                                                   .weight_um = (double)weight[i],
                                                    .band_end_um = 1e4 / nu[last],
                                                    .band = b,
                                                    .source = source};
@@ -64,7 +64,7 @@ static status open_probe(probe *p, const scene *s, render *r, uint32_t pixel)
     p->s = s;
     p->row_length = bands->sample_count;
     p->value = malloc((size_t)SENSOR_TERMS * bands->sample_count * sizeof *p->value);
-    p->sample = malloc(bands->sample_count * sizeof *p->sample);
+    p->sample = malloc(bands->weight_count * sizeof *p->sample);
     NEED(p->value && p->sample, STATUS_MEMORY, "no memory for the spectra of a pixel");
     list_samples(p, bands);
     TRY(render_pixel_terms(r, pixel, p->value));

@@ -110,6 +110,11 @@ status render_tables_take_spectra(render_tables *t, device *dev, const scene *s,
                         t->bands->rows));
     TRY(device_allocate(dev, &t->band_records, s->band_count * sizeof(band_record),
                         t->bands->bands));
+    TRY(device_allocate(dev, &t->band_weights, t->bands->weight_count * sizeof(float),
+                        t->bands->weight_um));
+    TRY(device_allocate(dev, &t->bands_between,
+                        t->bands->sample_count / SPECTRA_BLOCK * 2 * sizeof(uint32_t),
+                        t->bands->bands_between));
     TRY(device_allocate(dev, &t->ln_radiance,
                         (size_t)s->band_count * BAND_TEMPERATURES * sizeof(float), NULL));
     TRY(sample_emissivity(&emissivity_rows, s, t->bands));
@@ -119,7 +124,7 @@ status render_tables_take_spectra(render_tables *t, device *dev, const scene *s,
                           &t->extinction_rows));
     TRY(device_run(dev, "band_temperature", shape2(BAND_TEMPERATURES, s->band_count),
                    ARG(t->bands->sample_count), ARG(t->spectrum_rows), ARG(t->band_records),
-                   ARG(t->ln_radiance)));
+                   ARG(t->band_weights), ARG(t->ln_radiance)));
 out:
     free(emissivity_rows);
     return rc;
@@ -131,6 +136,8 @@ void render_tables_free(render_tables *t)
     device_release(t->blocks.emissivity);
     device_release(t->blocks.rows);
     device_release(t->ln_radiance);
+    device_release(t->bands_between);
+    device_release(t->band_weights);
     device_release(t->band_records);
     device_release(t->extinction_rows);
     device_release(t->emissivity_rows);

@@ -14,7 +14,8 @@ typedef struct render_tables {
     facet_record *facet; /* shape (facet_count) */
     device_memory facets, facet_ids, materials;
     spectra *bands;
-    device_memory spectrum_rows, emissivity_rows, extinction_rows, band_records, ln_radiance;
+    device_memory spectrum_rows, emissivity_rows, extinction_rows, band_records, band_weights,
+        bands_between, ln_radiance;
     /* Exact mode: the same over blocks of samples, as interreflection.h takes them. */
     interreflection_spectra blocks;
     float *reflectance; /* shape (facet_count): the most at any wavelength */

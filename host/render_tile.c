@@ -189,6 +189,7 @@ static status colour(const render_tile_memory *t, const render_shared *r, bool w
                    ARG(t->points.hit), ARG(t->background), ARG(t->lit), ARG(t->background_lit),
                    ARG(r->tables.spectrum_rows), ARG(r->tables.emissivity_rows), ARG(t->incident),
                    ARG(r->tables.extinction_rows), ARG(t->body_paths), ARG(r->tables.band_records),
+                   ARG(r->tables.band_weights), ARG(r->tables.bands_between),
                    ARG(r->tables.ln_radiance), ARG(t->terms), ARG(t->band_planes)));
 out:
     return rc;

@@ -6,12 +6,11 @@
 #include <stdlib.h>
 
 #define SMALLEST_TRANSMISSION 1e-30 /* has a logarithm, and is none */
+#define SLACK 1e-6                  /* of a step between samples, for its rounding */
 
-enum { PAD = SPECTRA_BLOCK };
-
-static uint32_t padded(int count)
+static uint32_t padded(uint32_t count)
 {
-    return ((uint32_t)count + PAD - 1) / PAD * PAD;
+    return (count + SPECTRA_BLOCK - 1) / SPECTRA_BLOCK * SPECTRA_BLOCK;
 }
 
 /* Altitudes and ranges of the air, with those that need no table: ground and sensor, and range 0. */
@@ -31,21 +30,20 @@ static uint32_t air_first_row(const atmosphere *air)
            (uint32_t)air->zenith_count * (uint32_t)air->azimuth_count;
 }
 
-static status allocate(spectra *s, uint32_t band_count, uint32_t sample_count,
-                       const atmosphere *air)
+static status allocate(spectra *s, uint32_t band_count, const atmosphere *air)
 {
+    const uint32_t sample_count = s->sample_count;
     status rc = STATUS_OK;
 
     s->band_count = band_count;
-    s->sample_count = sample_count;
     s->row_count =
         air_first_row(air) + 2u * (altitudes_of(air) * (uint32_t)air->path_count + ranges_of(air));
-    s->wavenumber_cm1 = calloc(sample_count, sizeof(double));
+    s->bands_between = calloc(sample_count / SPECTRA_BLOCK * 2, sizeof(uint32_t));
     s->bands = calloc(band_count, sizeof *s->bands);
     s->centre_um = calloc(band_count, sizeof(double));
     s->width_um = calloc(band_count, sizeof(double));
     s->rows = calloc((size_t)s->row_count * sample_count, sizeof(float));
-    NEED(s->wavenumber_cm1 && s->bands && s->centre_um && s->width_um && s->rows, STATUS_MEMORY,
+    NEED(s->bands_between && s->bands && s->centre_um && s->width_um && s->rows, STATUS_MEMORY,
          "no memory for the spectra of %u bands", band_count);
 out:
     return rc;
@@ -133,25 +131,98 @@ static void fill_rows(spectra *s, const atmosphere *air, bool thesis)
     fill_ranges(s, air);
 }
 
-static void place_band(spectra *s, uint32_t index, const band *b, const band_samples *samples,
-                       uint32_t first)
+static int descending(const void *a, const void *b)
 {
-    const uint32_t count = padded(samples->count);
+    const double first = *(const double *)a, second = *(const double *)b;
 
-    for (uint32_t i = 0; i < count; i++) {
-        const int from = (int)i < samples->count ? (int)i : samples->count - 1;
-        s->wavenumber_cm1[first + i] = samples->wavenumber_cm1[from];
-        if ((int)i < samples->count)
-            row(s, SPECTRA_WEIGHT)[first + i] = (float)samples->weight_um[i];
+    return (first < second) - (first > second);
+}
+
+/* Lays the samples of all bands in one row, those at the same wavenumber once. A block does not go
+ * over a gap between bands: means over blocks would mix what lies far apart.
+ *   step_cm1   the longest within a band; 0: band_step_cm1 */
+static status lay_row(spectra *s, const band_samples *samples, uint32_t band_count, double step_cm1)
+{
+    status rc = STATUS_OK;
+    size_t count = 0, total = 0;
+    double *all = NULL;
+
+    for (uint32_t b = 0; b < band_count; b++) total += (size_t)samples[b].count;
+    all = malloc(total * sizeof *all);
+    s->wavenumber_cm1 = malloc(total * SPECTRA_BLOCK * sizeof(double));
+    NEED(all && s->wavenumber_cm1, STATUS_MEMORY, "no memory for %zu samples", total);
+    for (uint32_t b = 0; b < band_count; b++)
+        for (int i = 0; i < samples[b].count; i++) all[count++] = samples[b].wavenumber_cm1[i];
+    qsort(all, total, sizeof *all, descending);
+    for (size_t i = 0; i < total; i++) {
+        const double step = step_cm1 > 0.0 ? step_cm1 : band_step_cm1(all[i]);
+        if (i > 0 && all[i] == all[i - 1]) continue;
+        while (i > 0 && all[i - 1] - all[i] > step * (1.0 + SLACK) &&
+               s->sample_count % SPECTRA_BLOCK)
+            s->wavenumber_cm1[s->sample_count++] = all[i - 1];
+        s->wavenumber_cm1[s->sample_count++] = all[i];
     }
+    while (s->sample_count % SPECTRA_BLOCK) s->wavenumber_cm1[s->sample_count++] = all[total - 1];
+out:
+    free(all);
+    return rc;
+}
+
+/* Where in the row a wavenumber stands that is one of its samples. */
+static uint32_t find_sample(const spectra *s, double wavenumber_cm1)
+{
+    uint32_t low = 0, high = s->sample_count - 1;
+
+    while (low < high) {
+        const uint32_t middle = (low + high) / 2;
+        if (s->wavenumber_cm1[middle] > wavenumber_cm1)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Finds the blocks that a band is in. */
+static void place_band(spectra *s, uint32_t index, const band *b, const band_samples *samples)
+{
+    const double *nu = samples->wavenumber_cm1;
+    const uint32_t first = find_sample(s, nu[0]) / SPECTRA_BLOCK * SPECTRA_BLOCK;
+    const uint32_t count = padded(find_sample(s, nu[samples->count - 1]) + 1) - first;
+
     s->bands[index] = (band_record){.first_sample = first,
                                     .sample_count = count,
                                     .gain = (float)b->gain,
                                     .offset = (float)b->offset,
                                     .width_um = (float)samples->width_um,
-                                    .is_mean = b->is_mean};
+                                    .is_mean = b->is_mean,
+                                    .first_weight = s->weight_count};
+    s->weight_count += count;
     s->centre_um[index] = samples->centre_um;
     s->width_um[index] = samples->width_um;
+    for (uint32_t k = first / SPECTRA_BLOCK; k < (first + count) / SPECTRA_BLOCK; k++) {
+        uint32_t *between = s->bands_between + (size_t)2 * k;
+        if (between[1] == 0) between[0] = index;
+        between[1] = index + 1;
+    }
+}
+
+static status place_weights(spectra *s, const band_samples *samples)
+{
+    status rc = STATUS_OK;
+
+    s->weight_um = calloc(s->weight_count, sizeof *s->weight_um);
+    NEED(s->weight_um, STATUS_MEMORY, "no memory for the weights of %u bands", s->band_count);
+    for (uint32_t b = 0; b < s->band_count; b++) {
+        float *own = s->weight_um + s->bands[b].first_weight;
+        for (int i = 0; i < samples[b].count; i++) {
+            const uint32_t at = find_sample(s, samples[b].wavenumber_cm1[i]);
+            own[at - s->bands[b].first_sample] = (float)samples[b].weight_um[i];
+            row(s, SPECTRA_WEIGHT)[at] += (float)samples[b].weight_um[i];
+        }
+    }
+out:
+    return rc;
 }
 
 static void free_samples(band_samples *samples, uint32_t count)
@@ -166,18 +237,14 @@ status spectra_build(spectra **out, const band *bands, uint32_t band_count, cons
     status rc = STATUS_OK;
     spectra *s = calloc(1, sizeof *s);
     band_samples *samples = calloc(band_count, sizeof *samples);
-    uint32_t total = 0;
 
     NEED(s && samples, STATUS_MEMORY, "no memory for the spectra");
-    for (uint32_t i = 0; i < band_count; i++) {
+    for (uint32_t i = 0; i < band_count; i++)
         TRY(band_sample(&samples[i], &bands[i], air, by_points));
-        total += padded(samples[i].count);
-    }
-    TRY(allocate(s, band_count, total, air));
-    for (uint32_t i = 0, first = 0; i < band_count; i++) {
-        place_band(s, i, &bands[i], &samples[i], first);
-        first += padded(samples[i].count);
-    }
+    TRY(lay_row(s, samples, band_count, by_points ? air->wavenumber_step_cm1 : 0.0));
+    TRY(allocate(s, band_count, air));
+    for (uint32_t i = 0; i < band_count; i++) place_band(s, i, &bands[i], &samples[i]);
+    TRY(place_weights(s, samples));
     fill_rows(s, air, thesis);
     *out = s;
     s = NULL;
@@ -221,7 +288,7 @@ status spectra_coarsen(spectra **out, const spectra *s)
     float *wavelength_um = malloc(s->sample_count * sizeof *wavelength_um);
 
     NEED(coarse && wavelength_um, STATUS_MEMORY, "no memory for coarse spectra");
-    coarse->sample_count = padded((int)(s->sample_count / SPECTRA_BLOCK));
+    coarse->sample_count = padded(s->sample_count / SPECTRA_BLOCK);
     coarse->row_count = s->row_count;
     coarse->wavenumber_cm1 = calloc(coarse->sample_count, sizeof(double));
     coarse->rows = calloc((size_t)s->row_count * coarse->sample_count, sizeof(float));
@@ -252,6 +319,8 @@ void spectra_free(spectra *s)
     free(s->bands);
     free(s->centre_um);
     free(s->width_um);
+    free(s->weight_um);
+    free(s->bands_between);
     free(s->rows);
     free(s);
 }

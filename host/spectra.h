@@ -10,10 +10,15 @@
 #include <stdbool.h>
 
 typedef struct spectra {
-    uint32_t band_count, sample_count; /* samples of all bands, each padded to 16 */
-    double *wavenumber_cm1;            /* shape (sample_count) */
-    band_record *bands;                /* shape (band_count) */
-    double *centre_um, *width_um;      /* shape (band_count) */
+    /* One row for all bands, which share their samples; blocks of SPECTRA_BLOCK, padded with weight
+     * 0 where no band is between. */
+    uint32_t band_count, sample_count;
+    double *wavenumber_cm1;       /* shape (sample_count), does not ascend */
+    band_record *bands;           /* shape (band_count) */
+    double *centre_um, *width_um; /* shape (band_count) */
+    float *weight_um;             /* shape (weight_count): the bands', one behind the other */
+    uint32_t weight_count;
+    uint32_t *bands_between; /* shape (blocks, 2): first and one past the last that it is in */
     uint32_t row_count;
     float *rows; /* shape (row_count, sample_count) */
 } spectra;
@@ -24,8 +29,6 @@ typedef struct spectra {
 status spectra_build(spectra **out, const band *bands, uint32_t band_count, const atmosphere *air,
                      bool by_points, bool thesis);
 void spectra_free(spectra *s);
-
-#define SPECTRA_BLOCK 16
 
 /* Takes means over blocks of SPECTRA_BLOCK samples, weighted by the response, instead of samples;
  * Planck's law is that of the blocks' mean wavelengths. There are no bands in it. */

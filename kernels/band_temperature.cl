@@ -3,17 +3,18 @@
 /* Radiance in band of a black body at every temperature of the table, as its logarithm: the largest
  * term of the sum is taken out, so that nothing underflows.
  * Launch: (BAND_TEMPERATURES, band_count).
- * spectra: shape (rows, sample_count), SPECTRA_...; bands: band_record
+ * spectra: shape (rows, sample_count), SPECTRA_...; bands: band_record; weights: of its samples, um
  * ln_radiance: shape (band_count, BAND_TEMPERATURES), ln of W m-2 sr-1 */
 kernel void band_temperature(const uint sample_count, global const float *spectra,
-                             global const band_record *bands, global float *ln_radiance)
+                             global const band_record *bands, global const float *weights,
+                             global float *ln_radiance)
 {
     const uint index = get_global_id(0), b = get_global_id(1);
     if (index >= BAND_TEMPERATURES) return;
 
     const band_record band = bands[b];
     const float temperature_k = band_temperature_at(index);
-    global const float *weight = spectra + SPECTRA_WEIGHT * sample_count + band.first_sample;
+    global const float *weight = weights + band.first_weight;
     global const float *first = spectra + SPECTRA_PLANCK_FIRST * sample_count + band.first_sample;
     global const float *second = spectra + SPECTRA_PLANCK_SECOND * sample_count + band.first_sample;
     float largest = -INFINITY, sum = 0.0f;

@@ -139,25 +139,15 @@ static from_above look_above(const pixel_state *pixel, spectra_tables tables,
     return out;
 }
 
-/* Writes one block of the spectra that the planes of the radiance's parts are integrals of. */
-static void store_terms(spectra_tables tables, radiometry_record frame, uint block,
-                        const spectrum *part, spectrum radiance)
-{
-    if (!tables.terms) return;
-    for (uint k = 0; k < RADIANCE_PARTS; k++)
-        spectrum_store(part[k], tables.terms + (size_t)k * frame.sample_count, block);
-    spectrum_store(radiance, tables.terms + (size_t)RADIANCE_PARTS * frame.sample_count, block);
-}
-
-/* Sums over the band of one pixel, of a block's samples side by side. */
-typedef struct band_sums {
+/* One block of the spectra that bands are integrals of. */
+typedef struct block_terms {
     spectrum radiance, emissivity, background_emissivity;
     spectrum part[RADIANCE_PARTS]; /* as the planes from BAND_PARTS on */
-} band_sums;
+} block_terms;
 
-/* Adds one block of samples of a pixel that met a target. */
-static void add_target(band_sums *sums, const pixel_state *pixel, spectra_tables tables,
-                       radiometry_record frame, const air_record *air, uint block, spectrum weight)
+/* A block of a pixel that met a target. */
+static block_terms look_at_target(const pixel_state *pixel, spectra_tables tables,
+                                  radiometry_record frame, const air_record *air, uint block)
 {
     const uint row = frame.sample_count;
     const spectrum black_body = planck_radiance(
@@ -171,55 +161,87 @@ static void add_target(band_sums *sums, const pixel_state *pixel, spectra_tables
 
     if (tables.extinction) put_bodies(pixel, tables, frame, air, block, &terms);
     const spectrum tau2 = terms.transmission, path = terms.radiance;
-    const spectrum radiance = sensor_radiance(
-        surface_radiance(emissivity, black_body, sun, above.sky + above.background), tau2, path);
-    sums->radiance += weight * radiance;
-    sums->emissivity += weight * emissivity;
-    sums->background_emissivity += weight * behind;
-    if (!frame.wants_parts) return;
     const spectrum reflected = tau2 * (1.0f - emissivity);
-    const spectrum part[RADIANCE_PARTS] = {tau2 * emitted_radiance(emissivity, black_body),
-                                           reflected * sun,
-                                           reflected * above.sky,
-                                           reflected * above.background,
-                                           path,
-                                           tau2};
-    for (uint k = 0; k < RADIANCE_PARTS; k++) sums->part[k] += weight * part[k];
-    store_terms(tables, frame, block, part, radiance);
+    const block_terms out = {
+        sensor_radiance(surface_radiance(emissivity, black_body, sun, above.sky + above.background),
+                        tau2, path),
+        emissivity,
+        behind,
+        {tau2 * emitted_radiance(emissivity, black_body), reflected * sun, reflected * above.sky,
+         reflected * above.background, path, tau2}};
+    return out;
 }
 
 /* The same where nothing was met: the sky of the ray's direction, all of it path. */
-static void add_sky(band_sums *sums, const pixel_state *pixel, spectra_tables tables,
-                    radiometry_record frame, const air_record *air, uint block, spectrum weight)
+static block_terms look_at_sky(const pixel_state *pixel, spectra_tables tables,
+                               radiometry_record frame, const air_record *air, uint block)
 {
     const spectrum none = (spectrum)0.0f;
     air_terms sky = {(spectrum)1.0f,
                      sky_radiance(sky_rows(tables, frame), frame, pixel->sky, block)};
 
     if (tables.extinction) put_bodies(pixel, tables, frame, air, block, &sky);
-    const spectrum part[RADIANCE_PARTS] = {none, none, none, none, sky.radiance, none};
-    sums->radiance += weight * sky.radiance;
-    sums->part[4] += weight * sky.radiance;
-    store_terms(tables, frame, block, part, sky.radiance);
+    const block_terms out = {
+        sky.radiance, none, none, {none, none, none, none, sky.radiance, none}};
+    return out;
 }
 
-/* Sums of a band. */
-static band_sums sum_band(const pixel_state *pixel, spectra_tables tables, radiometry_record frame,
-                          const air_record *air, band_record band)
+/* Writes a block where its spectra are wanted. */
+static void store_terms(spectra_tables tables, radiometry_record frame, uint block,
+                        const block_terms *terms)
 {
-    band_sums sums;
+    const size_t row = frame.sample_count;
 
-    sums.radiance = sums.emissivity = sums.background_emissivity = (spectrum)0.0f;
-    for (uint k = 0; k < RADIANCE_PARTS; k++) sums.part[k] = (spectrum)0.0f;
-    for (uint k = 0; k < band.sample_count / SPECTRUM_WIDTH; k++) {
-        const uint block = band.first_sample / SPECTRUM_WIDTH + k;
-        const spectrum weight = load_row(tables, frame, SPECTRA_WEIGHT, block);
-        if (pixel->interaction == INTERACTION_MISSED)
-            add_sky(&sums, pixel, tables, frame, air, block, weight);
-        else
-            add_target(&sums, pixel, tables, frame, air, block, weight);
-    }
-    return sums;
+    if (!tables.terms) return;
+    for (uint k = 0; k < RADIANCE_PARTS; k++)
+        spectrum_store(terms->part[k], tables.terms + k * row, block);
+    spectrum_store(terms->radiance, tables.terms + RADIANCE_PARTS * row, block);
+}
+
+/* Adds what a block is in a band to a sum over the band, which the first block begins. */
+static void add_to(global float *sum, spectrum terms, spectrum weight, bool is_first)
+{
+    const float own = spectrum_sum(weight * terms);
+
+    *sum = is_first ? own : *sum + own;
+}
+
+/* Adds one block to the planes of one band and pixel. */
+static void add_block(global float *out, radiometry_record frame, const block_terms *terms,
+                      spectrum weight, bool is_first)
+{
+    const size_t plane = frame.pixel_count;
+
+    add_to(out, terms->radiance, weight, is_first);
+    add_to(out + 3u * plane, terms->emissivity, weight, is_first);
+    add_to(out + 4u * plane, terms->background_emissivity, weight, is_first);
+    for (uint k = 0; k < RADIANCE_PARTS && frame.wants_parts; k++)
+        add_to(out + (BAND_PARTS + k) * plane, terms->part[k], weight, is_first);
+}
+
+/* Turns sums over a band into its planes. */
+static void finish_band(global float *out, radiometry_record frame, const pixel_state *pixel,
+                        band_record band, global const float *ln_radiance)
+{
+    const size_t plane = frame.pixel_count;
+    const float radiance = out[0];
+    const float per_um = 1.0f / band.width_um, scale = band.is_mean ? per_um : 1.0f;
+    const float apparent_k = band_temperature_find(ln_radiance, radiance);
+
+    out[0] = radiance * scale;
+    out[plane] = band.gain * radiance + band.offset;
+    out[2u * plane] = apparent_k > 0.0f ? apparent_k - ZERO_CELSIUS_K : NO_VALUE;
+    if (pixel->interaction == INTERACTION_MISSED)
+        out[3u * plane] = NO_VALUE;
+    else
+        out[3u * plane] *= per_um;
+    if (pixel->background_temperature_k > 0.0f)
+        out[4u * plane] *= per_um;
+    else
+        out[4u * plane] = NO_VALUE;
+    out[BAND_STDERR * plane] = NO_VALUE;
+    for (uint k = 0; k < RADIANCE_PARTS && frame.wants_parts; k++)
+        out[(BAND_PARTS + k) * plane] *= k == 5u ? per_um : scale;
 }
 
 static pixel_state pixel_look(radiometry_record frame, const air_record *air, camera_record camera,
@@ -258,7 +280,10 @@ static pixel_state pixel_look(radiometry_record frame, const air_record *air, ca
  *   the mean background instead
  * extinction: rows of CLOUD_... (cloud.h), per m; bodies: see crossing.cl; both NULL in
  *   a scene without transmissive bodies
- * bands: band_record; ln_radiance: shape (band_count, BAND_TEMPERATURES)
+ * bands: band_record; weights: of each its samples', um
+ * bands_between: per block of SPECTRA_BLOCK samples the first band that it is in, and one more than
+ *   the last; those between may not be in it
+ * ln_radiance: shape (band_count, BAND_TEMPERATURES)
  * terms: shape (pixel_count, SENSOR_TERMS, sample_count), W m-2 sr-1 um-1: what the radiance at the
  *   sensor is the sum of where that is wanted, tau2, and the radiance; NULL: not wanted
  * planes: shape (band_count, BAND_PLANES, pixel_count): radiance W m-2 sr-1 (or its mean per um),
@@ -274,6 +299,7 @@ kernel void radiometry(const radiometry_record frame, const air_record air,
                        global const float *spectra, global const float *emissivity,
                        global const float *incident, global const float *extinction,
                        global const transmission_path *bodies, global const band_record *bands,
+                       global const float *weights, global const uint *bands_between,
                        global const float *ln_radiance, global float *terms, global float *planes)
 {
     const uint pixel = get_global_id(0);
@@ -289,26 +315,24 @@ kernel void radiometry(const radiometry_record frame, const air_record air,
     const pixel_state state =
         pixel_look(frame, &air, camera, pixel, hit[pixel], background[pixel], sunlit[pixel],
                    background_sunlit[pixel], facets, materials, temperature_k[pixel]);
-    for (uint b = 0; b < frame.band_count; b++) {
-        const band_record band = bands[b];
-        const band_sums sums = sum_band(&state, tables, frame, &air, band);
-        const float radiance = spectrum_sum(sums.radiance);
-        const float per_um = 1.0f / band.width_um, scale = band.is_mean ? per_um : 1.0f;
-        const float apparent_k =
-            band_temperature_find(ln_radiance + b * BAND_TEMPERATURES, radiance);
-        const size_t plane = frame.pixel_count;
-        global float *out = planes + (size_t)b * BAND_PLANES * plane + pixel;
-        out[0] = radiance * scale;
-        out[plane] = band.gain * radiance + band.offset;
-        out[2u * plane] = apparent_k > 0.0f ? apparent_k - ZERO_CELSIUS_K : NO_VALUE;
-        out[3u * plane] = state.interaction == INTERACTION_MISSED
-                              ? NO_VALUE
-                              : spectrum_sum(sums.emissivity) * per_um;
-        out[4u * plane] = state.background_temperature_k > 0.0f
-                              ? spectrum_sum(sums.background_emissivity) * per_um
-                              : NO_VALUE;
-        out[BAND_STDERR * plane] = NO_VALUE;
-        for (uint k = 0; k < RADIANCE_PARTS && frame.wants_parts; k++)
-            out[(BAND_PARTS + k) * plane] = spectrum_sum(sums.part[k]) * (k == 5u ? per_um : scale);
+    const size_t band_step = (size_t)BAND_PLANES * frame.pixel_count;
+    planes += pixel;
+    for (uint block = 0; block < frame.sample_count / SPECTRUM_WIDTH; block++) {
+        const block_terms seen = state.interaction == INTERACTION_MISSED
+                                     ? look_at_sky(&state, tables, frame, &air, block)
+                                     : look_at_target(&state, tables, frame, &air, block);
+        const uint2 between = vload2(block * SPECTRUM_WIDTH / SPECTRA_BLOCK, bands_between);
+        for (uint b = between.x; b < between.y; b++) {
+            const band_record band = bands[b];
+            const uint place = block - band.first_sample / SPECTRUM_WIDTH;
+            const uint count = band.sample_count / SPECTRUM_WIDTH;
+            global float *out = planes + b * band_step;
+            if (place >= count) continue;
+            add_block(out, frame, &seen, spectrum_load(weights + band.first_weight, place),
+                      place == 0u);
+            if (place + 1u == count)
+                finish_band(out, frame, &state, band, ln_radiance + b * BAND_TEMPERATURES);
+        }
+        store_terms(tables, frame, block, &seen);
     }
 }

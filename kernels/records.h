@@ -160,7 +160,7 @@ typedef struct radiometry_record {
     uint first_pixel; /* of the tile, counted along the rows; see camera_record on samples */
     uint pixel_count; /* of the tile */
     uint band_count;
-    uint sample_count; /* of all bands together: length of a row of the spectra, times 16 */
+    uint sample_count; /* of all bands together: length of a row of the spectra, a multiple of 16 */
     uint thesis;       /* 1: emissivity at the nearest degree, of diffuse targets at 0 */
     uint path_count;   /* zenith angles of paths */
     float path_zenith_first_deg;
@@ -192,12 +192,15 @@ RECORD_SIZE(air_record, 192);
 /* Rows of the spectra, each of sample_count floats; behind them stand path_count rows of tau2,
  * path_count rows of path radiance, zenith_count x azimuth_count rows of sky radiance, and those of
  * air_record. */
-#define SPECTRA_WEIGHT 0u        /* response x quadrature, um */
+#define SPECTRA_WEIGHT 0u        /* response x quadrature, of all bands together, um */
 #define SPECTRA_PLANCK_FIRST 1u  /* 2 h c^2 / l^5, W m-2 sr-1 um-1 */
 #define SPECTRA_PLANCK_SECOND 2u /* h c / (k l), K */
 #define SPECTRA_SUN 3u           /* E_S tau1, W m-2 um-1 */
 #define SPECTRA_SKY 4u           /* L_DE + L_DS, integrated over the hemisphere */
 #define SPECTRA_PATHS 5u
+
+/* Samples side by side in the rows that are taken at once. */
+#define SPECTRA_BLOCK 16u
 
 /* Directions of the sky, times rings of lobes, that one surface can count. */
 #define INCIDENT_WEIGHTS 1024u
@@ -216,14 +219,15 @@ typedef struct incident_record {
 } incident_record;
 RECORD_SIZE(incident_record, 32);
 
-/* A band of the sensor. */
+/* A band of the sensor: whole blocks of the rows that all bands share. */
 typedef struct band_record {
     uint first_sample;  /* a multiple of 16 */
-    uint sample_count;  /* a multiple of 16; the last ones may have weight 0 */
+    uint sample_count;  /* a multiple of 16; those that are not the band's have weight 0 */
     float gain, offset; /* counts = gain x radiance in band + offset */
     float width_um;     /* sum of the weights */
     uint is_mean;       /* 1: the radiance plane holds radiance in band / width */
-    uint unused[2];
+    uint first_weight;  /* where the bands' own weights begin, a multiple of 16 */
+    uint unused;
 } band_record;
 RECORD_SIZE(band_record, 32);
 

@@ -65,19 +65,63 @@ static double at(const spectra *s, uint32_t row, uint32_t sample)
     return (double)s->rows[(size_t)row * s->sample_count + sample];
 }
 
-static void bands_start_at_multiples_of_16_and_fill_the_row(void **state)
+static void bands_are_whole_blocks_of_one_row(void **state)
 {
-    uint32_t first = 0;
-
     (void)state;
     spectra *s = build(false);
     for (uint32_t b = 0; b < 2; b++) {
-        assert_int_equal(s->bands[b].first_sample, first);
+        assert_int_equal(s->bands[b].first_sample % 16, 0);
         assert_int_equal(s->bands[b].sample_count % 16, 0);
-        first += s->bands[b].sample_count;
     }
-    assert_int_equal(s->sample_count, first);
+    assert_int_equal(s->bands[0].first_sample, 0); /* 8 to 13.3 um holds the other band */
+    assert_int_equal(s->bands[0].sample_count, s->sample_count);
     assert_int_equal(s->row_count, SPECTRA_PATHS + 2 * PATHS + ZENITHS * AZIMUTHS);
+    spectra_free(s);
+}
+
+static void bands_that_share_an_edge_share_its_sample(void **state)
+{
+    const band halves[2] = {{.name = "low", .low_um = 9.0, .high_um = 9.01},
+                            {.name = "high", .low_um = 9.01, .high_um = 9.02}};
+    spectra *s = NULL;
+
+    (void)state;
+    assert_int_equal(spectra_build(&s, halves, 2, &air, false, false), STATUS_OK);
+    /* Both are 1.23 cm-1 wide, a step each, and no point of the database is in them. */
+    assert_int_equal(s->sample_count, 16);
+    assert_near(s->wavenumber_cm1[1], 1e4 / 9.01, 1e-9);
+    assert_near(s->wavenumber_cm1[2], 1e4 / 9.02, 1e-9);
+    assert_near((double)s->weight_um[s->bands[0].first_weight + 1], 0.005, 1e-9);
+    assert_near((double)s->weight_um[s->bands[1].first_weight + 1], 0.005, 1e-9);
+    assert_near(at(s, SPECTRA_WEIGHT, 1), 0.01, 1e-9);
+    spectra_free(s);
+}
+
+static void a_block_does_not_go_over_a_gap_between_bands(void **state)
+{
+    const band apart[2] = {{.name = "high", .low_um = 12.0, .high_um = 12.01},
+                           {.name = "low", .low_um = 9.0, .high_um = 9.01}};
+    spectra *s = NULL;
+
+    (void)state;
+    assert_int_equal(spectra_build(&s, apart, 2, &air, false, false), STATUS_OK);
+    assert_int_equal(s->sample_count, 32);
+    assert_int_equal(s->bands[0].first_sample, 16);
+    assert_int_equal(s->bands[1].first_sample, 0);
+    spectra_free(s);
+}
+
+static void blocks_know_the_bands_that_they_are_in(void **state)
+{
+    (void)state;
+    spectra *s = build(false);
+    const uint32_t first = s->bands[1].first_sample / 16;
+    const uint32_t end = first + s->bands[1].sample_count / 16;
+
+    for (uint32_t k = 0; k < s->sample_count / 16; k++) {
+        assert_int_equal(s->bands_between[2 * k], 0);
+        assert_int_equal(s->bands_between[2 * k + 1], k >= first && k < end ? 2 : 1);
+    }
     spectra_free(s);
 }
 
@@ -90,7 +134,7 @@ static void the_weights_of_a_band_sum_up_to_its_width(void **state)
         const double width = bands[b].high_um - bands[b].low_um;
         double sum = 0.0;
         for (uint32_t i = 0; i < s->bands[b].sample_count; i++)
-            sum += at(s, SPECTRA_WEIGHT, s->bands[b].first_sample + i);
+            sum += (double)s->weight_um[s->bands[b].first_weight + i];
         assert_near(sum, width, 1e-7 * width); /* weights are rounded to float */
         assert_near(s->width_um[b], width, 1e-12);
         assert_near((double)s->bands[b].width_um, width, 1e-7 * width);
@@ -200,7 +244,10 @@ static void a_band_beyond_the_database_fails(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bands_start_at_multiples_of_16_and_fill_the_row),
+        cmocka_unit_test(bands_are_whole_blocks_of_one_row),
+        cmocka_unit_test(bands_that_share_an_edge_share_its_sample),
+        cmocka_unit_test(a_block_does_not_go_over_a_gap_between_bands),
+        cmocka_unit_test(blocks_know_the_bands_that_they_are_in),
         cmocka_unit_test(the_weights_of_a_band_sum_up_to_its_width),
         cmocka_unit_test(padding_has_weight_0_and_finite_spectra),
         cmocka_unit_test(what_the_kernel_multiplies_is_multiplied_and_added_here),

@@ -217,8 +217,7 @@ class Reference:
         self.pixel(pixel)
         rows = []
         for band in self.case.bands:
-            at = slice(band["first_sample"], band["first_sample"] + band["sample_count"])
-            w = self.rows[records.WEIGHT][at]
+            at, w = self.case.of_band(band)
             sums = [(w * (s[at] if np.ndim(s) else s)).sum() for s in self.parts]
             scale = 1 / w.sum() if band["is_mean"] else 1
             rows.append([*(x * scale for x in sums[:5]), sums[5] / w.sum()])
@@ -229,8 +228,7 @@ class Reference:
         kind, radiance, e, e_b = self.pixel(pixel)
         in_band = []
         for band in self.case.bands:
-            at = slice(band["first_sample"], band["first_sample"] + band["sample_count"])
-            w = self.rows[records.WEIGHT][at]
+            at, w = self.case.of_band(band)
             mean = lambda s: records.NO_VALUE if s is None else (w * s[at]).sum() / w.sum()
             in_band.append(((w * radiance[at]).sum(), mean(e), mean(e_b)))
         return kind, np.array(in_band)
@@ -255,19 +253,33 @@ class Case:
             self.set_bodies()
 
     def set_bands(self):
+        """Three bands apart, and one that shares blocks of the first two with other weights."""
         edges = [(8.0, 14.0, 30), (0.5, 0.9, 11), (3.0, 5.0, 16)]
-        self.bands = np.zeros(len(edges), records.BAND)
+        self.bands = np.zeros(len(edges) + 1, records.BAND)
         self.wavelength_um, weight = [], []
         for band, (low, high, used) in zip(self.bands, edges):
             padded = (used + 15) // 16 * 16
             width = np.diff(np.linspace(low, high, used + 1))
-            band["first_sample"], band["sample_count"] = len(weight), padded
+            band["first_sample"] = band["first_weight"] = len(weight)
+            band["sample_count"] = padded
             band["width_um"] = high - low
             self.wavelength_um += list(np.linspace(low, high, used)) + [high] * (padded - used)
             weight += list(width) + [0.0] * (padded - used)
-        self.bands["gain"], self.bands["offset"] = [2.5, 1.0, 40.0], [-3.0, 0.0, 7.0]
-        self.bands["is_mean"] = [0, 1, 0]
+        shared = np.zeros(32)
+        shared[3:20] = np.linspace(0.1, 0.3, 17)
+        self.bands[-1]["first_sample"], self.bands[-1]["sample_count"] = 16, 32
+        self.bands[-1]["first_weight"], self.bands[-1]["width_um"] = len(weight), shared.sum()
+        self.bands["gain"], self.bands["offset"] = [2.5, 1.0, 40.0, 3.0], [-3.0, 0.0, 7.0, 0.0]
+        self.bands["is_mean"] = [0, 1, 0, 0]
         self.wavelength_um, self.weight = np.array(self.wavelength_um), np.array(weight)
+        self.weights = np.concatenate([weight, shared]).astype(np.float32)
+        self.weight[16:48] += shared
+        self.bands_between = np.array([[0, 1], [0, 4], [1, 4], [2, 3]], np.uint32)
+
+    def of_band(self, band):
+        """Where in the rows a band is, and its weights there."""
+        first, own, count = (int(band[k]) for k in ("first_sample", "first_weight", "sample_count"))
+        return slice(first, first + count), self.weights[own:own + count].astype(np.float64)
 
     def set_frame(self, thesis):
         self.frame = np.zeros(1, records.RADIOMETRY)

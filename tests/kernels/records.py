@@ -43,7 +43,7 @@ AIR = record("*first_row *altitude_count *range_count *is_level ground_z_m *unus
              " range_m[20]")
 TRANSMISSION_PATH = record("length_m[4] temperature_k[4] middle_m[4] vertical_m[4] *medium[4]")
 INCIDENT = record("*cell_count *dome_count *ring_count *light_length *is_of_facets *keeps_sky *unused[2]")
-BAND = record("*first_sample *sample_count gain offset width_um *is_mean *unused[2]")
+BAND = record("*first_sample *sample_count gain offset width_um *is_mean *first_weight *unused")
 DETECTOR = record("*seed *frame *band *columns *count *last_count noise shot fixed_gain fixed_offset"
                   " periodic waves_across waves_down gain offset *unused")
 BLUR = record("*columns *rows *step *picture_columns *picture_rows *weight_columns *weight_rows"

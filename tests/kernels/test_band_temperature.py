@@ -26,8 +26,10 @@ def tables(opencl):
     bands = np.zeros(len(BANDS), records.BAND)
     bands["sample_count"] = [len(w) for w, _ in of_band]
     bands["first_sample"][1:] = np.cumsum(bands["sample_count"])[:-1]
+    bands["first_weight"] = bands["first_sample"]
     rows = np.array([weight, FIRST / wavelength**5, SECOND / wavelength], np.float32)
-    arguments = [np.uint32(len(weight)), probe.copy(opencl, rows), probe.copy(opencl, bands)]
+    arguments = [np.uint32(len(weight)), probe.copy(opencl, rows), probe.copy(opencl, bands),
+                 probe.copy(opencl, np.float32(weight))]
     size = (records.BAND_TEMPERATURES, len(BANDS))
     return probe.launch(opencl, opencl.build("band_temperature"), size, arguments, size[::-1])
 

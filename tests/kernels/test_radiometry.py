@@ -1,3 +1,4 @@
+import copy
 import types
 
 import numpy as np
@@ -30,12 +31,12 @@ def run(opencl, case, options=""):
     """Planes of shape (bands, BAND_PLANES, pixels)."""
     tables = []
     for band in case.bands:
-        at = slice(band["first_sample"], band["first_sample"] + band["sample_count"])
-        tables.append(ln_table(case.wavelength_um[at], case.weight[at])[1])
+        at, weight = case.of_band(band)
+        tables.append(ln_table(case.wavelength_um[at], weight)[1])
     arrays = [case.facets, case.materials, case.pixel_k, case.hit, case.background,
               case.sunlit, case.background_sunlit, case.spectra, case.emissivity, case.incident,
               case.extinction, case.body_paths,
-              case.bands, np.array(tables, np.float32), None]
+              case.bands, case.weights, case.bands_between, np.array(tables, np.float32), None]
     arguments = [case.frame[0], case.air[0], case.camera[0], *(a if a is None else probe.copy(opencl, a) for a in arrays)]
     shape = (len(case.bands), records.BAND_PLANES, len(case.hit))
     return probe.launch(opencl, opencl.build("radiometry", options), len(case.hit), arguments, shape)
@@ -92,8 +93,8 @@ def test_apparent_temperature_is_that_of_the_black_body_with_the_same_radiance(o
     celsius = run(opencl, case)[:, 2]
 
     for band, apparent, radiance in zip(case.bands, celsius, expected[:, :, 0].T):
-        at = slice(band["first_sample"], band["first_sample"] + band["sample_count"])
-        weight, wavelength = case.weight[at], case.wavelength_um[at]
+        at, weight = case.of_band(band)
+        wavelength = case.wavelength_um[at]
         black = (weight * planck(wavelength, 273.15 + apparent[:, None].astype(float))).sum(1)
         # The table's own step costs .001 K; 2e-5 of the radiance at 8-14 um is .001 K too.
         slope = (weight * planck(wavelength, 273.16 + apparent[:, None].astype(float))).sum(1)
@@ -104,7 +105,7 @@ def test_pixels_do_not_depend_on_tiles(opencl):
     case = Case(5, 100, 0)
     whole = run(opencl, case)
 
-    part = types.SimpleNamespace(**vars(case))
+    part = copy.copy(case)
     part.frame = case.frame.copy()
     part.frame["first_pixel"] += 37
     part.frame["pixel_count"] = 30
@@ -187,9 +188,11 @@ def black_plane(low_um, high_um, temperature_k):
     pad = -len(weight) % 16
     case = Case(1, 1, 0)
     case.weight = np.pad(weight, (0, pad))
+    case.weights = case.weight.astype(np.float32)
+    case.bands_between = np.tile(np.uint32([0, 1]), (len(case.weight) // 16, 1))
     case.wavelength_um = np.pad(wavelength, (0, pad), mode="edge")
     case.bands = np.zeros(1, records.BAND)
-    case.bands[0] = (0, len(case.weight), 1, 0, high_um - low_um, 0, (0, 0))
+    case.bands[0] = (0, len(case.weight), 1, 0, high_um - low_um, 0, 0, 0)
     case.frame["band_count"], case.frame["sample_count"] = 1, len(case.weight)
     case.frame["path_count"] = case.frame["zenith_count"] = case.frame["azimuth_count"] = 1
     case.materials[:1]["specular_share"], case.materials[:1]["emissivity_angles"] = 0, 1
