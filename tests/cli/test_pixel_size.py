@@ -131,7 +131,8 @@ def peak_mib(program, folder, samples):
 
 
 def test_memory_does_not_grow_with_samples(program, tmp_path):
-    few, many = (peak_mib(program, tmp_path / str(n), n) for n in (4, 64))
+    # A run that has to compile a kernel takes more: the smaller of two.
+    few, many = (min(peak_mib(program, tmp_path / f"{n}-{i}", n) for i in range(2)) for n in (4, 64))
 
     # 4 x 16384 samples fill a tile; 16 times as many would take some 500 MiB more.
     assert many < few + 40
