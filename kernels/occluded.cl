@@ -18,6 +18,7 @@ kernel void occluded(const uint count, const uint stride, const world_record wor
         const ray_packet packet =
             ray_order_load(&world, rays + first, stride, sorted, order, at, some);
         const uint met = ray_packet_any(nodes, blocks, &packet);
-        for (uint i = 0; i < some; i++) out_met[first + order[at + i]] = (uchar)(met >> i & 1);
+        for (uint i = 0; i < some; i++)
+            out_met[first + (sorted ? order[at + i] : at + i)] = (uchar)(met >> i & 1);
     }
 }

@@ -56,18 +56,21 @@ static inline float16 ray_lanes_most(const float16 a, const float16 b)
     return a > b ? a : b;
 }
 
-static inline float ray_lanes_lowest(const float16 a)
+/* The lowest of neighbours: pairs of the first in the low half, of the second in the high. */
+static inline float16 ray_lanes_fold(const float16 a, const float16 b)
 {
-    const float8 eight = ray_least(a.lo, a.hi);
-    const float4 four = eight.lo < eight.hi ? eight.lo : eight.hi;
-    const float2 two = four.lo < four.hi ? four.lo : four.hi;
-
-    return two.x < two.y ? two.x : two.y;
+    return ray_lanes_least((float16)(a.even, b.even), (float16)(a.odd, b.odd));
 }
 
-static inline float ray_lanes_highest(const float16 a)
+/* The lowest lane of each of eight. */
+static inline float8 ray_lanes_lowest(const float16 of[8])
 {
-    return -ray_lanes_lowest(-a);
+    const float16 first =
+        ray_lanes_fold(ray_lanes_fold(of[0], of[1]), ray_lanes_fold(of[2], of[3]));
+    const float16 last = ray_lanes_fold(ray_lanes_fold(of[4], of[5]), ray_lanes_fold(of[6], of[7]));
+    const float16 pairs = ray_lanes_fold(first, last);
+
+    return ray_least(pairs.even, pairs.odd);
 }
 
 static inline void ray_lanes_set_shear(ray_lanes *f, const float16 o[3], const float16 d[3])
@@ -93,21 +96,35 @@ static inline void ray_lanes_set_shear(ray_lanes *f, const float16 o[3], const f
     if ((y_lanes | z_lanes) == 0) f->axis = 0;
 }
 
-/* Twice the pad of a ray, so that no rounding makes the bounds narrower than a ray's own. */
-static inline void ray_lanes_set_bound(ray_lanes *f, const int k, const float16 origin,
-                                       const float pad)
+/* Sets the bounds, twice a ray's pad wider, so that no rounding makes them narrower than a ray's own. */
+static inline void ray_lanes_set_bounds(ray_lanes *f, const float16 o[3])
 {
-    ray_lanes_bound *b = &f->bound[k];
-    const float low = ray_lanes_lowest(origin) - 2.0f * pad;
-    const float high = ray_lanes_highest(origin) + 2.0f * pad;
-    const uint negative = f->octant >> k & 1;
+    const float16 all[8] = {o[0], o[1], o[2], f->reciprocal[0], f->reciprocal[1], f->reciprocal[2],
+                            0,    0};
+    float16 negative[8];
+    float low[8], high[8];
 
-    b->reciprocal[0] = ray_lanes_lowest(f->reciprocal[k]);
-    b->reciprocal[1] = ray_lanes_highest(f->reciprocal[k]);
     UNROLL
-    for (int i = 0; i < 2; i++) {
-        b->near[i] = -(negative ? low : high) * b->reciprocal[i];
-        b->far[i] = -(negative ? high : low) * b->reciprocal[i];
+    for (int i = 0; i < 8; i++) negative[i] = -all[i];
+    const float8 lowest = ray_lanes_lowest(all), highest = -ray_lanes_lowest(negative);
+    const float8 reach = ray_most(-lowest, highest);
+    const float reach_xy = reach.s0 > reach.s1 ? reach.s0 : reach.s1;
+    const float pad = 2.0f * 4.76837158203125e-7f * (reach_xy > reach.s2 ? reach_xy : reach.s2);
+    vstore8(lowest, 0, low);
+    vstore8(highest, 0, high);
+    UNROLL
+    for (int k = 0; k < 3; k++) {
+        ray_lanes_bound *b = &f->bound[k];
+        const uint negative = f->octant >> k & 1;
+        const float first = negative ? high[k] + pad : low[k] - pad;
+        const float last = negative ? low[k] - pad : high[k] + pad;
+        b->reciprocal[0] = low[3 + k];
+        b->reciprocal[1] = high[3 + k];
+        UNROLL
+        for (int i = 0; i < 2; i++) {
+            b->near[i] = -last * b->reciprocal[i];
+            b->far[i] = -first * b->reciprocal[i];
+        }
     }
 }
 
@@ -122,8 +139,8 @@ static inline ray_lanes ray_lanes_of(const float origin[3][16], const float dire
 
     UNROLL
     for (int k = 0; k < 3; k++) {
-        o[k] = in_use ? vload16(0, origin[k]) : (float16)origin[k][first];
-        d[k] = in_use ? vload16(0, direction[k]) : (float16)direction[k][first];
+        o[k] = in_use ? *(const float16 *)origin[k] : (float16)origin[k][first];
+        d[k] = in_use ? *(const float16 *)direction[k] : (float16)direction[k][first];
         reach = ray_lanes_most(fabs(o[k]), reach);
     }
     ray_lanes_set_shear(&f, o, d);
@@ -141,9 +158,7 @@ static inline ray_lanes ray_lanes_of(const float origin[3][16], const float dire
         f.far_plane[k] = 8 * k + 24 * !is_negative;
         f.coherent &= negative == 0 || negative == 0xffff;
     }
-    UNROLL
-    for (int k = 0; k < 3 && f.coherent; k++)
-        ray_lanes_set_bound(&f, k, o[k], ray_lanes_highest(pad));
+    if (f.coherent) ray_lanes_set_bounds(&f, o);
     return f;
 }
 

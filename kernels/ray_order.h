@@ -24,18 +24,19 @@ static inline uchar16 ray_order_cells(const float16 x, const float16 y, const fl
     return convert_uchar16(octant | (u << 2) | v);
 }
 
-/* Finds the cells of a full batch; returns 1 where most packets point to several octants. */
-static inline uint ray_order_is_mixed(global const float *direction, const uint stride,
-                                      uchar cell[RAY_BATCH])
+/* Tells whether most packets of a full batch point to several octants. */
+static inline uint ray_order_is_mixed(global const float *direction, const uint stride)
 {
     uint mixed = 0;
 
     for (uint i = 0; i < RAY_BATCH; i += 16) {
-        const uchar16 cells =
-            ray_order_cells(vload16(0, direction + i), vload16(0, direction + stride + i),
-                            vload16(0, direction + 2 * (size_t)stride + i));
-        mixed += any(cells >> (uchar)4 != (uchar16)(cells.s0 >> 4));
-        vstore16(cells, 0, cell + i);
+        int16 differs = 0;
+        UNROLL
+        for (uint k = 0; k < 3; k++) {
+            const int16 bits = as_int16(vload16(0, direction + k * (size_t)stride + i));
+            differs |= bits ^ bits.s0;
+        }
+        mixed += ray_lanes_mask(differs) != 0;
     }
     return mixed > RAY_BATCH / 16 / 2;
 }
@@ -60,8 +61,12 @@ static inline uint ray_order_of(global const float *direction, const uint stride
     uchar cell[RAY_BATCH];
     ushort standing[RAY_BATCH];
 
-    for (uint i = 0; i < count; i++) order[i] = standing[i] = (ushort)i;
-    if (count < RAY_BATCH || !ray_order_is_mixed(direction, stride, cell)) return 0;
+    if (count < RAY_BATCH || !ray_order_is_mixed(direction, stride)) return 0;
+    for (uint i = 0; i < RAY_BATCH; i += 16)
+        vstore16(ray_order_cells(vload16(0, direction + i), vload16(0, direction + stride + i),
+                                 vload16(0, direction + 2 * (size_t)stride + i)),
+                 0, cell + i);
+    for (uint i = 0; i < count; i++) standing[i] = (ushort)i;
     ray_order_sort(cell, standing, count, order);
     return 1;
 }
@@ -79,6 +84,36 @@ static inline uint ray_order_of(global const float *direction, const uint stride
 
 #endif
 
+#if RAY_LANES == 16
+
+/* Takes 16 numbers by their order. */
+static inline float16 ray_order_gather(global const float *from, const ushort16 order)
+{
+    return (float16)(from[order.s0], from[order.s1], from[order.s2], from[order.s3], from[order.s4],
+                     from[order.s5], from[order.s6], from[order.s7], from[order.s8], from[order.s9],
+                     from[order.sa], from[order.sb], from[order.sc], from[order.sd], from[order.se],
+                     from[order.sf]);
+}
+
+/* Takes 16 rays of a sorted batch. */
+static inline ray_packet ray_order_load_sorted(const world_record *world, global const float *rays,
+                                               const uint stride, const ushort16 order)
+{
+    ray_packet p;
+
+    ray_packet_clear(&p, world);
+    p.alive = 0xffff;
+    p.loose = 1;
+    UNROLL
+    for (uint k = 0; k < 3; k++) {
+        *(float16 *)p.origin[k] = ray_order_gather(rays + (size_t)k * stride, order);
+        *(float16 *)p.direction[k] = ray_order_gather(rays + (size_t)(k + 3) * stride, order);
+    }
+    return p;
+}
+
+#endif
+
 /* Takes up to RAY_LANES rays of a batch, the first of them being number `at` of the order.
  *   rays   (6, stride), moved to the batch: origins, directions */
 static inline ray_packet ray_order_load(const world_record *world, global const float *rays,
@@ -87,12 +122,14 @@ static inline ray_packet ray_order_load(const world_record *world, global const 
 {
     ray_packet p;
 
-    if (!sorted && count == RAY_LANES) return ray_packet_load(world, rays + at, stride);
+#if RAY_LANES == 16
+    if (sorted) return ray_order_load_sorted(world, rays, stride, vload16(0, order + at));
+#endif
+    if (count == RAY_LANES) return ray_packet_load(world, rays + at, stride);
     ray_packet_clear(&p, world);
     p.alive = (1u << count) - 1;
-    p.loose = sorted;
     for (uint i = 0; i < RAY_LANES; i++) {
-        const size_t from = order[at + (i < count ? i : 0)];
+        const size_t from = at + (i < count ? i : 0);
         UNROLL
         for (uint k = 0; k < 3; k++) {
             p.origin[k][i] = rays[(size_t)k * stride + from];

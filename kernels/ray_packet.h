@@ -15,7 +15,8 @@
 
 /* Rays that share a world; a bit in `alive` per lane in use. */
 typedef struct ray_packet {
-    float origin[3][RAY_LANES], direction[3][RAY_LANES];
+    float origin[3][RAY_LANES] __attribute__((aligned(64)));
+    float direction[3][RAY_LANES] __attribute__((aligned(64)));
     uint alive;
     uint cull_back;
     uint loose; /* 1: the rays soon part, so that single rays take over early */
@@ -55,11 +56,15 @@ static inline ray_packet ray_packet_load(const world_record *world, global const
     ray_packet_clear(&p, world);
     p.alive = (1u << RAY_LANES) - 1;
     UNROLL
-    for (uint k = 0; k < 3; k++)
-        for (uint i = 0; i < RAY_LANES; i++) {
-            p.origin[k][i] = rays[(size_t)k * stride + i];
-            p.direction[k][i] = rays[(size_t)(k + 3) * stride + i];
-        }
+    for (uint k = 0; k < 3; k++) {
+#if RAY_LANES == 16
+        *(float16 *)p.origin[k] = vload16(0, rays + (size_t)k * stride);
+        *(float16 *)p.direction[k] = vload16(0, rays + (size_t)(k + 3) * stride);
+#else
+        p.origin[k][0] = rays[(size_t)k * stride];
+        p.direction[k][0] = rays[(size_t)(k + 3) * stride];
+#endif
+    }
     return p;
 }
 

@@ -20,8 +20,9 @@ kernel void trace(const uint count, const uint stride, const world_record world,
         ray_packet_hit hit;
         ray_packet_closest(nodes, blocks, &packet, &hit);
         for (uint i = 0; i < some; i++) {
-            out_range[first + order[at + i]] = hit.range[i];
-            out_facet[first + order[at + i]] = hit.facet[i];
+            const uint ray = first + (sorted ? order[at + i] : at + i);
+            out_range[ray] = hit.range[i];
+            out_facet[ray] = hit.facet[i];
         }
     }
 }
