@@ -146,23 +146,20 @@ static inline void ray_packet_closest_single(ray_packet_walk *w, global const bv
                                              global const bvh_block *blocks, const uint word,
                                              uint active, ray_packet_nearest *best)
 {
-    ray_packet_hit all;
+    const uint16 lanes = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    const ray_packet_nearest before = *best;
 
-    vstore16(best->range, 0, all.range);
-    vstore16(best->facet, 0, all.facet);
-    vstore16(best->triangle, 0, all.triangle);
     while (active) {
         const uint lane = ray_packet_next(&active);
         const ray_frame *f = ray_packet_frame(w, lane);
-        ray_hit hit = ray_packet_hit_of(&all, lane);
+        ray_hit hit = {((const float *)&before.range)[lane], ((const uint *)&before.facet)[lane],
+                       ((const uint *)&before.triangle)[lane]};
         ray_closest_below(f, nodes, blocks, word, MAXFLOAT, &hit);
-        all.range[lane] = hit.range;
-        all.facet[lane] = hit.facet;
-        all.triangle[lane] = hit.triangle;
+        const int16 is_lane = lanes == lane;
+        best->range = is_lane ? hit.range : best->range;
+        best->facet = is_lane ? hit.facet : best->facet;
+        best->triangle = is_lane ? hit.triangle : best->triangle;
     }
-    best->range = vload16(0, all.range);
-    best->facet = vload16(0, all.facet);
-    best->triangle = vload16(0, all.triangle);
 }
 
 /* Looks for nearer triangles in a leaf, for all lanes at once. */
