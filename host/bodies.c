@@ -51,9 +51,9 @@ static status upload_tree(bodies *b)
                                .position = (const float(*)[3])g->position};
     TRY(bvh_build(&tree, &source));
     const bvh_tables *tables = bvh_look(tree);
-    TRY(bvh_memory_take(&b->tree, b->dev, tree));
     memcpy(b->world.low, tables->low, sizeof b->world.low);
     memcpy(b->world.high, tables->high, sizeof b->world.high);
+    TRY(bvh_memory_take(&b->tree, b->dev, &tree));
 out:
     bvh_free(tree);
     free(corner);

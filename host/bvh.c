@@ -6,8 +6,9 @@
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
-enum { CHILDREN = BVH_CHILDREN, ALIGNMENT = 64, BLOCK_LIMIT = 1 << 27 };
+enum { CHILDREN = BVH_CHILDREN, BLOCK_LIMIT = 1 << 27, ALIGNMENT = 64, LARGE_PAGE = 1 << 21 };
 
 /* Products of four coordinates must stay far from overflow on the device. */
 static const float coordinate_limit = 1e9f;
@@ -125,9 +126,10 @@ static uint32_t add_leaf(builder *b, const bvh_fork *leaf)
     const uint32_t index = b->tree->tables.block_count++;
     bvh_block *block = &b->tree->block[index];
 
-    memset(block, 0, sizeof *block);
     for (uint32_t lane = 0; lane < BVH_BLOCK_SIZE; lane++) {
         block->facet[lane] = RECORD_NONE;
+        for (int v = 0; v < 3; v++)
+            for (int k = 0; k < 3; k++) block->vertex[v][k][lane] = NAN;
         if (lane >= leaf->count) continue;
         const triangle *t = &b->triangle[b->item[leaf->first + lane].triangle];
         block->facet[lane] = t->facet;
@@ -171,12 +173,24 @@ static uint32_t add_node(builder *b, uint32_t top)
     return deepest + count;
 }
 
+/* Allocates an array; large ones on large pages, where the system has them, so that rays seldom wait
+ * for the addresses of what they visit. */
+static void *allocate(size_t bytes)
+{
+    const size_t alignment = bytes < LARGE_PAGE ? ALIGNMENT : LARGE_PAGE;
+    const size_t whole = (bytes + alignment - 1) / alignment * alignment;
+    void *memory = aligned_alloc(alignment, whole);
+
+    if (memory && alignment == LARGE_PAGE) madvise(memory, whole, MADV_HUGEPAGE);
+    return memory;
+}
+
 static status reserve(bvh *tree, size_t nodes, size_t blocks)
 {
     status rc = STATUS_OK;
 
-    tree->node = aligned_alloc(ALIGNMENT, nodes * sizeof *tree->node);
-    tree->block = aligned_alloc(ALIGNMENT, blocks * sizeof *tree->block);
+    tree->node = allocate(nodes * sizeof *tree->node);
+    tree->block = allocate(blocks * sizeof *tree->block);
     NEED(tree->node && tree->block, STATUS_MEMORY, "no memory for a tree over %u triangles",
          tree->tables.triangle_count);
 out:

@@ -1,13 +1,14 @@
 #include "bvh_memory.h"
 
-status bvh_memory_take(bvh_memory *out, device *dev, const bvh *tree)
+status bvh_memory_take(bvh_memory *out, device *dev, bvh **tree)
 {
     status rc = STATUS_OK;
-    const bvh_tables *tables = bvh_look(tree);
+    const bvh_tables *tables = bvh_look(*tree);
 
-    TRY(device_allocate(dev, &out->node, tables->node_count * sizeof *tables->node, tables->node));
-    TRY(device_allocate(dev, &out->block, tables->block_count * sizeof *tables->block,
-                        tables->block));
+    TRY(device_share(dev, &out->node, tables->node_count * sizeof *tables->node, tables->node));
+    TRY(device_share(dev, &out->block, tables->block_count * sizeof *tables->block, tables->block));
+    out->tree = *tree;
+    *tree = NULL;
 out:
     return rc;
 }
@@ -16,4 +17,5 @@ void bvh_memory_free(bvh_memory *m)
 {
     device_release(m->block);
     device_release(m->node);
+    bvh_free(m->tree);
 }

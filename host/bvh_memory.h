@@ -8,10 +8,11 @@
 /* Starts zeroed; bvh_memory_free is then safe at any time. */
 typedef struct bvh_memory {
     device_memory node, block; /* bvh_node, bvh_block */
+    bvh *tree;
 } bvh_memory;
 
-/* Copies the tables to the device. */
-status bvh_memory_take(bvh_memory *out, device *dev, const bvh *tree);
+/* Puts the tables on the device, and takes the tree over: *tree is NULL where that succeeds. */
+status bvh_memory_take(bvh_memory *out, device *dev, bvh **tree);
 
 /* Releases what the record holds, not the record. */
 void bvh_memory_free(bvh_memory *m);

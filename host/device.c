@@ -223,21 +223,32 @@ static status allocation_status(cl_int error)
                : STATUS_DEVICE;
 }
 
-status device_allocate(device *dev, device_memory *out, size_t bytes, const void *initial)
+static status create(device *dev, device_memory *out, cl_mem_flags flags, size_t bytes,
+                     const void *host)
 {
     status rc = STATUS_OK;
     cl_int error;
-    cl_mem memory;
 
     /* A buffer of no bytes is not allowed; empty arrays get one that nobody reads. */
-    if (bytes == 0) initial = NULL;
-    memory = clCreateBuffer(dev->context, CL_MEM_READ_WRITE | (initial ? CL_MEM_COPY_HOST_PTR : 0),
-                            bytes ? bytes : 64, (void *)initial, &error);
-    NEED(memory, allocation_status(error), "device %s: no room for %zu bytes: %s", dev->info.name,
+    if (bytes == 0) host = NULL;
+    *out = clCreateBuffer(dev->context, CL_MEM_READ_WRITE | (host ? flags : 0), bytes ? bytes : 64,
+                          (void *)host, &error);
+    NEED(*out, allocation_status(error), "device %s: no room for %zu bytes: %s", dev->info.name,
          bytes, device_error(error));
-    *out = memory;
 out:
     return rc;
+}
+
+status device_allocate(device *dev, device_memory *out, size_t bytes, const void *initial)
+{
+    return create(dev, out, CL_MEM_COPY_HOST_PTR, bytes, initial);
+}
+
+status device_share(device *dev, device_memory *out, size_t bytes, const void *memory)
+{
+    const bool in_place = !strcmp(dev->info.type, "cpu");
+
+    return create(dev, out, in_place ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR, bytes, memory);
 }
 
 void device_release(device_memory memory)

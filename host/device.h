@@ -36,6 +36,10 @@ const device_info *device_describe(const device *dev);
 /* Allocates device memory, filled from `initial` unless that is NULL. Fails with STATUS_MEMORY
  * where the device has no room. */
 status device_allocate(device *dev, device_memory *out, size_t bytes, const void *initial);
+
+/* Gives the device host memory that is only read: a CPU uses it where it is, others get a copy. It must
+ * outlive `out`. Fails as device_allocate. */
+status device_share(device *dev, device_memory *out, size_t bytes, const void *memory);
 void device_release(device_memory memory);
 
 status device_upload(device *dev, device_memory memory, size_t offset, size_t bytes,

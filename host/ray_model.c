@@ -38,7 +38,7 @@ status ray_model_open(ray_model **out, int device_index, char *const *path, size
                                .position = (const float(*)[3])model->shape->position};
     TRY(bvh_cache_build(&tree, &source));
     TRY(device_open(&model->dev, device_index));
-    TRY(ray_scene_open(&model->scene, model->dev, tree));
+    TRY(ray_scene_open(&model->scene, model->dev, &tree));
     *out = model;
     model = NULL;
 out:

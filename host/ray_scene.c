@@ -25,10 +25,10 @@ static float reach(const bvh_tables *tables)
     return largest;
 }
 
-status ray_scene_open(ray_scene **out, device *dev, const bvh *tree)
+status ray_scene_open(ray_scene **out, device *dev, bvh **tree)
 {
     status rc = STATUS_OK;
-    const bvh_tables *tables = bvh_look(tree);
+    const bvh_tables *tables = bvh_look(*tree);
     ray_scene *scene = calloc(1, sizeof *scene);
 
     NEED(scene, STATUS_MEMORY, "no memory for a scene of rays");

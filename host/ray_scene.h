@@ -9,9 +9,9 @@
 
 typedef struct ray_scene ray_scene;
 
-/* Copies the tree to the device. The scene has no ground plane yet, and both sides of its facets are
- * met; the device must outlive it. */
-status ray_scene_open(ray_scene **out, device *dev, const bvh *tree);
+/* Puts the tree on the device and takes it over: *tree is NULL where that succeeds. The scene has no
+ * ground plane yet, and both sides of its facets are met; the device must outlive it. */
+status ray_scene_open(ray_scene **out, device *dev, bvh **tree);
 void ray_scene_free(ray_scene *scene);
 
 /* Gives the scene an endless level plane at z_m, met by what leaves the geometry below the horizon.

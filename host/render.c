@@ -86,7 +86,7 @@ static status open_rays(render *r)
 
     TRY(bodies_open(&r->shared.bodies, r->shared.dev, s));
     TRY(build_tree(&tree, s));
-    TRY(ray_scene_open(&r->shared.rays, r->shared.dev, tree));
+    TRY(ray_scene_open(&r->shared.rays, r->shared.dev, &tree));
     /* eq. 2.3.2-6; departs: in exact mode what is opaque stops rays from behind too, but those of the
      * camera. */
     ray_scene_set_cull(r->shared.rays, true, s->thesis);

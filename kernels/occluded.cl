@@ -1,4 +1,5 @@
 #include "ray_order.h"
+#include "ray_pair.h"
 
 /* Tells which of any rays meet something.
  * Launch: (count / RAY_BATCH, rounded up). rays: (6, stride), stride >= count: origins, directions;
@@ -13,12 +14,17 @@ kernel void occluded(const uint count, const uint stride, const world_record wor
     ushort order[RAY_BATCH];
 
     const uint sorted = ray_order_of(rays + first + 3 * (size_t)stride, stride, batch, order);
-    for (uint at = 0; at < batch; at += RAY_LANES) {
-        const uint some = min(batch - at, (uint)RAY_LANES);
-        const ray_packet packet =
-            ray_order_load(&world, rays + first, stride, sorted, order, at, some);
-        const uint met = ray_packet_any(nodes, blocks, &packet);
-        for (uint i = 0; i < some; i++)
-            out_met[first + (sorted ? order[at + i] : at + i)] = (uchar)(met >> i & 1);
+    for (uint at = 0; at < batch; at += 2 * RAY_LANES) {
+        ray_packet packet[2];
+        for (uint k = 0; k < 2; k++) {
+            const uint from = at + k * RAY_LANES;
+            const uint some = from < batch ? min(batch - from, (uint)RAY_LANES) : 0;
+            packet[k] = ray_order_load(&world, rays + first, stride, sorted, order, from, some);
+        }
+        const uint met = ray_pair_any(nodes, blocks, packet);
+        for (uint i = 0; i < 2 * RAY_LANES && at + i < batch; i++) {
+            const uint is_met = met >> (i / RAY_LANES * 16 + i % RAY_LANES) & 1;
+            out_met[first + (sorted ? order[at + i] : at + i)] = (uchar)is_met;
+        }
     }
 }

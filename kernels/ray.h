@@ -36,7 +36,7 @@ typedef struct ray_frame {
     float origin[3]; /* by the axes of the shear */
     float reciprocal[3], near[3], far[3];
     uint is_negative[3];
-    uint cull_back;
+    float back; /* edges are met from 0 up and from back down */
 } ray_frame;
 
 static inline ray_frame ray_frame_of(const ray *r)
@@ -48,7 +48,7 @@ static inline ray_frame ray_frame_of(const ray *r)
     f.origin[0] = r->origin[f.shear.x];
     f.origin[1] = r->origin[f.shear.y];
     f.origin[2] = r->origin[f.shear.z];
-    f.cull_back = r->cull_back;
+    f.back = r->cull_back ? -INFINITY : 0.0f;
     UNROLL
     for (int k = 0; k < 3; k++) reach = fmax(reach, fabs(r->origin[k]));
     UNROLL
@@ -122,11 +122,10 @@ static inline uint ray_meets(const ray_frame *f, global const bvh_block *block, 
     const float8 c = x[1] * y[0] - y[1] * x[0];
     const float8 determinant = (a + b) + c;
     const float8 range = ((a * z[0] + b * z[1]) + c * z[2]) * s.scale_z / determinant;
-    const int8 front = (a >= 0.0f) & (b >= 0.0f) & (c >= 0.0f);
-    const int8 back = (a <= 0.0f) & (b <= 0.0f) & (c <= 0.0f);
-    const int8 met = f->cull_back ? front : front | back;
+    const int8 front = ray_least(ray_least(a, b), c) >= 0.0f;
+    const int8 back = ray_most(ray_most(a, b), c) <= f->back;
     *out_range = range;
-    return ray_mask(met & (determinant != 0.0f) & (range > 0.0f) & (range <= limit));
+    return ray_mask((front | back) & (range > 0.0f) & (range <= limit));
 }
 
 /* Asks for the memory of a child that will soon be visited. */
@@ -146,7 +145,8 @@ static inline void ray_fetch(global const bvh_node *nodes, global const bvh_bloc
 
 /* A stack entry: the range where a box is entered, which orders as its bits do, above its child word.
  * Puts the children of the mask on the stack, the nearest on top. */
-static inline uint ray_push_sorted(ulong *stack, const uint depth, global const uint *child,
+static inline uint ray_push_sorted(ulong *stack, const uint depth, global const bvh_node *nodes,
+                                   global const bvh_block *blocks, global const uint *child,
                                    const float8 range, uint mask)
 {
     float entered[8];
@@ -157,6 +157,7 @@ static inline uint ray_push_sorted(ulong *stack, const uint depth, global const 
         const uint i = 31 - clz(mask & -mask);
         const ulong entry = (ulong)as_uint(entered[i]) << 32 | child[i];
         uint place = top++;
+        ray_fetch(nodes, blocks, child[i]);
         for (; place > depth && stack[place - 1] < entry; place--) stack[place] = stack[place - 1];
         stack[place] = entry;
     }
@@ -224,7 +225,7 @@ static inline void ray_closest_below(const ray_frame *f, global const bvh_node *
         } else if ((mask & (mask - 1)) == 0) {
             word = child[31 - clz(mask)];
         } else {
-            depth = ray_push_sorted(stack, depth, child, range, mask);
+            depth = ray_push_sorted(stack, depth, nodes, blocks, child, range, mask);
             word = (uint)stack[--depth];
         }
     }

@@ -18,13 +18,12 @@ typedef struct ray_lanes {
     float16 reciprocal[3], near[3], far[3];
     float16 origin[3]; /* along the shear's x, y and z */
     float16 slope_x, slope_y, scale_z;
-    int16 along_y, along_z;           /* the shear's z is that axis of the world, else x */
-    int16 reversed;                   /* the direction's largest component is negative */
-    uint axis;                        /* the shear's z of all lanes, 3 where they differ */
+    int16 along_y, along_z; /* the shear's z is that axis of the world, else x */
+    float16 front, back; /* edges are met from front up and from back down; see ray_lanes_inside */
+    uint axis;           /* the shear's z of all lanes, 3 where they differ */
     uint near_plane[3], far_plane[3]; /* of that octant: where a node has them, counted in floats */
     uint octant;                      /* of the first lane: bit 0 x, 1 y, 2 z negative */
     uint coherent;                    /* all lanes have this octant: bound is set */
-    uint cull_back;
     ray_lanes_bound bound[3];
 } ray_lanes;
 
@@ -36,6 +35,15 @@ static inline uint ray_lanes_mask(const int16 lanes)
 #else
     return ray_mask(lanes.lo) | ray_mask(lanes.hi) << 8;
 #endif
+}
+
+/* Takes the lowest bit of a mask. */
+static inline uint ray_lanes_next(uint *mask)
+{
+    const uint lane = 31 - clz(*mask & -*mask);
+
+    *mask &= *mask - 1;
+    return lane;
 }
 
 static inline int16 ray_lanes_of_mask(const uint mask)
@@ -73,7 +81,8 @@ static inline float8 ray_lanes_lowest(const float16 of[8])
     return ray_least(pairs.even, pairs.odd);
 }
 
-static inline void ray_lanes_set_shear(ray_lanes *f, const float16 o[3], const float16 d[3])
+static inline void ray_lanes_set_shear(ray_lanes *f, const float16 o[3], const float16 d[3],
+                                       const uint cull_back)
 {
     const int16 y_over_x = fabs(d[1]) > fabs(d[0]);
     const int16 along_z = fabs(d[2]) > (y_over_x ? fabs(d[1]) : fabs(d[0]));
@@ -89,7 +98,10 @@ static inline void ray_lanes_set_shear(ray_lanes *f, const float16 o[3], const f
     f->origin[0] = along_z ? o[0] : along_y ? o[2] : o[1];
     f->origin[1] = along_z ? o[1] : along_y ? o[0] : o[2];
     f->origin[2] = along_z ? o[2] : along_y ? o[1] : o[0];
-    f->reversed = z < 0.0f;
+    if (cull_back) {
+        f->front = z < 0.0f ? (float16)INFINITY : (float16)0.0f;
+        f->back = z < 0.0f ? (float16)0.0f : (float16)-INFINITY;
+    }
     f->axis = 3;
     if (z_lanes == 0xffff) f->axis = 2;
     if (y_lanes == 0xffff) f->axis = 1;
@@ -134,7 +146,7 @@ static inline ray_lanes ray_lanes_of(const float origin[3][16], const float dire
 {
     const uint first = 31 - clz(alive & -alive);
     const int16 in_use = ray_lanes_of_mask(alive);
-    ray_lanes f = {.octant = 0, .coherent = 1, .cull_back = cull_back};
+    ray_lanes f = {.front = 0, .back = 0, .octant = 0, .coherent = 1};
     float16 o[3], d[3], reach = 0;
 
     UNROLL
@@ -143,7 +155,7 @@ static inline ray_lanes ray_lanes_of(const float origin[3][16], const float dire
         d[k] = in_use ? *(const float16 *)direction[k] : (float16)direction[k][first];
         reach = ray_lanes_most(fabs(o[k]), reach);
     }
-    ray_lanes_set_shear(&f, o, d);
+    ray_lanes_set_shear(&f, o, d, cull_back);
     const float16 pad = 4.76837158203125e-7f * reach;
     UNROLL
     for (int k = 0; k < 3; k++) {
@@ -237,29 +249,78 @@ INLINE void ray_lanes_shear(const ray_lanes *f, global const bvh_block *block, c
     }
 }
 
-/* Edge functions of a triangle; where it is seen from the side that counts, met has all bits of the
- * lane set. distance / determinant is the range. */
+/* Edge functions of a triangle, and the lowest and the highest of the three. distance / determinant is
+ * the range. */
 typedef struct ray_lanes_edges {
-    float16 determinant, distance;
-    int16 met;
+    float16 determinant, distance, lowest, highest;
 } ray_lanes_edges;
 
-INLINE ray_lanes_edges ray_lanes_edges_of(const ray_lanes *f, global const bvh_block *block,
-                                          const uint lane, const uint axis)
+/* The edges of sheared corners. */
+INLINE ray_lanes_edges ray_lanes_edges_of(const float16 x[3], const float16 y[3],
+                                          const float16 z[3], const float16 scale_z)
 {
-    float16 x[3], y[3], z[3];
-    ray_lanes_edges e;
-
-    ray_lanes_shear(f, block, lane, axis, x, y, z);
     const float16 a = x[2] * y[1] - y[2] * x[1];
     const float16 b = x[0] * y[2] - y[0] * x[2];
     const float16 c = x[1] * y[0] - y[1] * x[0];
-    const int16 front = (a >= 0.0f) & (b >= 0.0f) & (c >= 0.0f);
-    const int16 back = (a <= 0.0f) & (b <= 0.0f) & (c <= 0.0f);
-    e.determinant = (a + b) + c;
-    e.distance = ((a * z[0] + b * z[1]) + c * z[2]) * f->scale_z;
-    e.met = (f->cull_back ? (f->reversed ? back : front) : front | back) & (e.determinant != 0.0f);
-    return e;
+
+    return (ray_lanes_edges){(a + b) + c, ((a * z[0] + b * z[1]) + c * z[2]) * scale_z,
+                             ray_lanes_least(ray_lanes_least(a, b), c),
+                             ray_lanes_most(ray_lanes_most(a, b), c)};
+}
+
+/* The edges of one triangle as all lanes see it. */
+INLINE ray_lanes_edges ray_lanes_edges_of_one(const ray_lanes *f, global const bvh_block *block,
+                                              const uint lane, const uint axis)
+{
+    float16 x[3], y[3], z[3];
+
+    ray_lanes_shear(f, block, lane, axis, x, y, z);
+    return ray_lanes_edges_of(x, y, z, f->scale_z);
+}
+
+/* The lanes that are inside of all edges on a side that counts. Where all edges are 0, seen edge-on, the
+ * range is no number. */
+INLINE int16 ray_lanes_inside(const ray_lanes_edges *e, const float16 front, const float16 back)
+{
+    return (e->lowest >= front) | (e->highest <= back);
+}
+
+/* The lanes of them whose range is above 0: its two parts have one sign. */
+INLINE int16 ray_lanes_before(const ray_lanes_edges *e)
+{
+    return (e->distance != 0.0f) & ~(as_int16(e->distance) ^ as_int16(e->determinant));
+}
+
+/* Two lanes: the first in all of the low half, the second in the high. */
+INLINE float16 ray_lanes_two(const float16 *of, const uint first, const uint second)
+{
+    const float *lane = (const float *)of;
+
+    return (float16)((float8)lane[first], (float8)lane[second]);
+}
+
+/* The edges of all triangles of a block as two lanes see them, a half each.
+ *   axis   of the lanes, below 3 */
+INLINE ray_lanes_edges ray_lanes_edges_of_two(const ray_lanes *f, global const bvh_block *block,
+                                              const uint first, const uint second, const uint axis)
+{
+    const uint axis_x = axis == 2 ? 0 : axis + 1, axis_y = axis == 0 ? 2 : axis - 1;
+    const float16 slope_x = ray_lanes_two(&f->slope_x, first, second);
+    const float16 slope_y = ray_lanes_two(&f->slope_y, first, second);
+    float16 origin[3], x[3], y[3], z[3];
+
+    UNROLL
+    for (int k = 0; k < 3; k++) origin[k] = ray_lanes_two(&f->origin[k], first, second);
+    UNROLL
+    for (int v = 0; v < 3; v++) {
+        const float8 at_x = *(global const float8 *)block->vertex[v][axis_x];
+        const float8 at_y = *(global const float8 *)block->vertex[v][axis_y];
+        const float8 at_z = *(global const float8 *)block->vertex[v][axis];
+        z[v] = (float16)(at_z, at_z) - origin[2];
+        x[v] = ((float16)(at_x, at_x) - origin[0]) - slope_x * z[v];
+        y[v] = ((float16)(at_y, at_y) - origin[1]) - slope_y * z[v];
+    }
+    return ray_lanes_edges_of(x, y, z, ray_lanes_two(&f->scale_z, first, second));
 }
 
 #endif

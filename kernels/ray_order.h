@@ -128,7 +128,7 @@ static inline ray_packet ray_order_load(const world_record *world, global const 
     if (count == RAY_LANES) return ray_packet_load(world, rays + at, stride);
     ray_packet_clear(&p, world);
     p.alive = (1u << count) - 1;
-    for (uint i = 0; i < RAY_LANES; i++) {
+    for (uint i = 0; i < RAY_LANES && count > 0; i++) {
         const size_t from = at + (i < count ? i : 0);
         UNROLL
         for (uint k = 0; k < 3; k++) {

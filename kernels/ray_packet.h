@@ -87,7 +87,7 @@ static inline ray_hit ray_packet_hit_of(const ray_packet_hit *hit, const uint la
 
 #if RAY_LANES == 16
 
-#include "ray_lanes.h"
+#include "ray_leaf.h"
 
 /* Where this many rays are left they go on one by one: below a node, and in a leaf. Measured: packets
  * that point to several octants, or were sorted, part sooner than those of neighbouring pixels. */
@@ -127,76 +127,37 @@ static inline const ray_frame *ray_packet_frame(ray_packet_walk *w, const uint l
     return &w->frame[lane];
 }
 
-static inline uint ray_packet_next(uint *mask)
-{
-    const uint lane = 31 - clz(*mask & -*mask);
-
-    *mask &= *mask - 1;
-    return lane;
-}
-
-/* The nearest that the lanes have met so far. */
-typedef struct ray_packet_nearest {
-    float16 range; /* MAXFLOAT where nothing was met, below 0 in lanes that are not alive */
-    uint16 facet, triangle;
-} ray_packet_nearest;
-
 /* Lets single rays look for nearer triangles below a child word. */
 static inline void ray_packet_closest_single(ray_packet_walk *w, global const bvh_node *nodes,
                                              global const bvh_block *blocks, const uint word,
-                                             uint active, ray_packet_nearest *best)
+                                             uint active, ray_leaf_nearest *best)
 {
-    const uint16 lanes = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    const ray_packet_nearest before = *best;
+    const ray_leaf_nearest before = *best;
 
     while (active) {
-        const uint lane = ray_packet_next(&active);
+        const uint lane = ray_lanes_next(&active);
         const ray_frame *f = ray_packet_frame(w, lane);
-        ray_hit hit = {((const float *)&before.range)[lane], ((const uint *)&before.facet)[lane],
-                       ((const uint *)&before.triangle)[lane]};
+        ray_hit hit = ray_leaf_get(&before, lane);
         ray_closest_below(f, nodes, blocks, word, MAXFLOAT, &hit);
-        const int16 is_lane = lanes == lane;
-        best->range = is_lane ? hit.range : best->range;
-        best->facet = is_lane ? hit.facet : best->facet;
-        best->triangle = is_lane ? hit.triangle : best->triangle;
+        ray_leaf_set(best, lane, hit);
     }
 }
 
-/* Looks for nearer triangles in a leaf, for all lanes at once. */
-INLINE void ray_packet_closest_leaf(const ray_lanes *f, global const bvh_block *blocks,
-                                    const uint leaf, const uint axis, const int16 active,
-                                    ray_packet_nearest *best)
+/* Looks for nearer triangles of the active lanes in a leaf. */
+INLINE void ray_packet_closest_leaf(ray_packet_walk *w, global const bvh_node *nodes,
+                                    global const bvh_block *blocks, const uint leaf,
+                                    const int16 active, const uint rays, ray_leaf_nearest *best)
 {
-    const uint first = (leaf & ~BVH_LEAF) >> 4, end = first + (leaf & 15);
+    const ray_lanes *f = &w->lanes;
 
-    for (uint b = first; b < end; b++)
-        for (uint i = 0; i < 8 && blocks[b].facet[i] != RECORD_NONE; i++) {
-            const ray_lanes_edges e = ray_lanes_edges_of(f, blocks + b, i, axis);
-            if (ray_lanes_mask(active & e.met) == 0) continue;
-            const float16 range = e.distance / e.determinant;
-            const uint16 facet = blocks[b].facet[i];
-            const int16 met = active & e.met & (range > 0.0f) & (range <= best->range);
-            const int16 nearer = met & ((range < best->range) | (facet < best->facet));
-            best->range = nearer ? range : best->range;
-            best->facet = as_uint16(nearer) ? facet : best->facet;
-            best->triangle = as_uint16(nearer) ? (uint16)(b * 8 + i) : best->triangle;
-        }
-}
-
-/* Tells which lanes meet anything in a leaf: a bit each. A range is above 0 where its two parts have
- * one sign. */
-INLINE uint ray_packet_any_leaf(const ray_lanes *f, global const bvh_block *blocks, const uint leaf,
-                                const uint axis)
-{
-    const uint first = (leaf & ~BVH_LEAF) >> 4, end = first + (leaf & 15);
-    int16 met = 0;
-
-    for (uint b = first; b < end; b++)
-        for (uint i = 0; i < 8 && blocks[b].facet[i] != RECORD_NONE; i++) {
-            const ray_lanes_edges e = ray_lanes_edges_of(f, blocks + b, i, axis);
-            met |= e.met & (e.distance != 0.0f) & ~(as_int16(e.distance) ^ as_int16(e.determinant));
-        }
-    return ray_lanes_mask(met);
+    if (w->together && f->axis < 3 && popcount(rays) <= RAY_LEAF_FEW)
+        ray_leaf_closest_two(f, blocks, leaf, f->axis, rays, best);
+    else if (popcount(rays) <= ray_packet_few(w->together, 1))
+        ray_packet_closest_single(w, nodes, blocks, leaf, rays, best);
+    else if (f->axis == 3)
+        ray_leaf_closest(f, blocks, leaf, 3, active, rays, best);
+    else
+        ray_leaf_closest(f, blocks, leaf, f->axis % 3, active, rays, best);
 }
 
 /* What is still to be visited: child words, and where the lanes enter them, nan where they do not. */
@@ -204,14 +165,6 @@ typedef struct ray_packet_stack {
     float16 entered[RAY_STACK_SIZE];
     uint word[RAY_STACK_SIZE];
 } ray_packet_stack;
-
-/* Sorts the children of a mask by a node's order: bit k is the child that stands k-th. */
-static inline uint ray_packet_sort(const uint order, const uint mask)
-{
-    const uint8 child = (uint8)order >> (uint8)(0, 4, 8, 12, 16, 20, 24, 28) & 7u;
-
-    return ray_mask(as_int8((uint8)mask >> child << 31));
-}
 
 /* Puts the children that a lane enters on the stack, the nearest on top; returns its depth. */
 INLINE uint ray_packet_open(const ray_lanes *f, global const bvh_node *nodes,
@@ -242,7 +195,7 @@ static inline void ray_packet_closest(global const bvh_node *nodes, global const
 {
     ray_packet_walk w;
     ray_packet_stack stack;
-    ray_packet_nearest best = {MAXFLOAT, RECORD_NONE, 0};
+    ray_leaf_nearest best = {MAXFLOAT, RECORD_NONE, 0};
     int16 active = ray_lanes_of_mask(p->alive);
     uint word = 0, depth = 0;
 
@@ -250,14 +203,12 @@ static inline void ray_packet_closest(global const bvh_node *nodes, global const
     w = ray_packet_start(p);
     best.range = active ? (float16)MAXFLOAT : (float16)-1.0f;
     for (;;) {
-        const uint rays = ray_lanes_mask(active), count = popcount(rays);
+        const uint rays = ray_lanes_mask(active);
         const float16 limit = best.range * RAY_SLACK;
-        if (count <= ray_packet_few(w.together, word >> 31))
+        if (word & BVH_LEAF)
+            ray_packet_closest_leaf(&w, nodes, blocks, word, active, rays, &best);
+        else if (popcount(rays) <= ray_packet_few(w.together, 0))
             ray_packet_closest_single(&w, nodes, blocks, word, rays, &best);
-        else if (word & BVH_LEAF && w.lanes.axis == 3)
-            ray_packet_closest_leaf(&w.lanes, blocks, word, 3, active, &best);
-        else if (word & BVH_LEAF)
-            ray_packet_closest_leaf(&w.lanes, blocks, word, w.lanes.axis % 3, active, &best);
         else if (w.lanes.coherent)
             depth = ray_packet_open(&w.lanes, nodes, blocks, word, 1, limit, &stack, depth);
         else
@@ -276,16 +227,19 @@ done:
 }
 
 /* Puts the children that an active lane enters on the stack, the lanes above the word. */
-INLINE uint ray_packet_open_any(const ray_lanes *f, global const bvh_node *node,
+INLINE uint ray_packet_open_any(const ray_lanes *f, global const bvh_node *nodes,
+                                global const bvh_block *blocks, const uint word,
                                 const uint coherent, const uint active, ulong *stack, uint depth)
 {
+    global const bvh_node *node = nodes + word;
     uint mask = coherent ? ray_lanes_reach(f, node, MAXFLOAT) : 0xff;
 
     while (mask) {
-        const uint child = ray_packet_next(&mask);
+        const uint child = ray_lanes_next(&mask);
         float16 range;
         const int16 enters = ray_lanes_enter(f, node, child, coherent, MAXFLOAT, &range);
         const uint lanes = active & ray_lanes_mask(enters);
+        ray_fetch(nodes, blocks, node->child[child]);
         stack[depth] = (ulong)lanes << 32 | node->child[child];
         depth += lanes != 0;
     }
@@ -300,11 +254,50 @@ static inline uint ray_packet_any_single(ray_packet_walk *w, global const bvh_no
     uint met = 0;
 
     while (active) {
-        const uint lane = ray_packet_next(&active);
+        const uint lane = ray_lanes_next(&active);
         const ray_frame *f = ray_packet_frame(w, lane);
         met |= ray_any_below(f, nodes, blocks, word, MAXFLOAT) << lane;
     }
     return met;
+}
+
+/* Tells which of the active lanes meet anything in a leaf: a bit each. */
+INLINE uint ray_packet_any_leaf(ray_packet_walk *w, global const bvh_node *nodes,
+                                global const bvh_block *blocks, const uint leaf, const uint active)
+{
+    const ray_lanes *f = &w->lanes;
+
+    if (w->together && f->axis < 3 && popcount(active) <= RAY_LEAF_FEW)
+        return ray_leaf_any_two(f, blocks, leaf, f->axis, active);
+    if (popcount(active) <= ray_packet_few(w->together, 1))
+        return ray_packet_any_single(w, nodes, blocks, leaf, active);
+    if (f->axis == 3) return active & ray_leaf_any(f, blocks, leaf, 3);
+    return active & ray_leaf_any(f, blocks, leaf, f->axis % 3);
+}
+
+/* Tells which lanes of a packet that was started meet anything: a bit each. */
+static inline uint ray_packet_any_of(ray_packet_walk *w, global const bvh_node *nodes,
+                                     global const bvh_block *blocks)
+{
+    const uint alive = w->packet->alive;
+    ulong stack[RAY_STACK_SIZE];
+    uint depth = 0, word = 0, active = alive, met = 0;
+
+    for (;;) {
+        if (word & BVH_LEAF)
+            met |= ray_packet_any_leaf(w, nodes, blocks, word, active);
+        else if (popcount(active) <= ray_packet_few(w->together, 0))
+            met |= ray_packet_any_single(w, nodes, blocks, word, active);
+        else if (w->lanes.coherent)
+            depth = ray_packet_open_any(&w->lanes, nodes, blocks, word, 1, active, stack, depth);
+        else
+            depth = ray_packet_open_any(&w->lanes, nodes, blocks, word, 0, active, stack, depth);
+        do {
+            if (depth == 0 || met == alive) return met;
+            active = (uint)(stack[--depth] >> 32) & ~met;
+        } while (active == 0);
+        word = (uint)stack[depth];
+    }
 }
 
 /* Tells which lanes meet anything: a bit each. */
@@ -312,29 +305,10 @@ static inline uint ray_packet_any(global const bvh_node *nodes, global const bvh
                                   const ray_packet *p)
 {
     ray_packet_walk w;
-    ulong stack[RAY_STACK_SIZE];
-    uint depth = 0, word = 0, active = p->alive, met = 0;
 
     if (p->alive == 0) return 0;
     w = ray_packet_start(p);
-    for (;;) {
-        const uint count = popcount(active);
-        if (count <= ray_packet_few(w.together, word >> 31))
-            met |= ray_packet_any_single(&w, nodes, blocks, word, active);
-        else if (word & BVH_LEAF && w.lanes.axis == 3)
-            met |= active & ray_packet_any_leaf(&w.lanes, blocks, word, 3);
-        else if (word & BVH_LEAF)
-            met |= active & ray_packet_any_leaf(&w.lanes, blocks, word, w.lanes.axis % 3);
-        else if (w.lanes.coherent)
-            depth = ray_packet_open_any(&w.lanes, nodes + word, 1, active, stack, depth);
-        else
-            depth = ray_packet_open_any(&w.lanes, nodes + word, 0, active, stack, depth);
-        do {
-            if (depth == 0 || met == p->alive) return met;
-            active = (uint)(stack[--depth] >> 32) & ~met;
-        } while (active == 0);
-        word = (uint)stack[depth];
-    }
+    return ray_packet_any_of(&w, nodes, blocks);
 }
 
 #else

@@ -30,7 +30,7 @@ RECORD_SIZE(bvh_node, 256);
 
 /* Eight triangles of a leaf; 64-byte aligned. A quad is two triangles with the same facet.
  *   vertex   shape (vertex 0..2, axis, lane)
- *   facet    index of the facet, RECORD_NONE pads */
+ *   facet    index of the facet, RECORD_NONE pads, the vertices of which are nan */
 typedef struct bvh_block {
     float vertex[3][3][8];
     uint facet[8];

@@ -55,15 +55,17 @@ static void make_rays(float *rays, uint32_t count, const bench_mesh *mesh)
         }
 }
 
-static status trace(const bvh *tree, const float *rays, uint32_t count, const answers *out)
+static status trace(const bvh_source *source, const float *rays, uint32_t count, const answers *out)
 {
     status rc = STATUS_OK;
+    bvh *tree = NULL;
     device *dev = NULL;
     ray_scene *scene = NULL;
     device_memory ray = NULL, range = NULL, facet = NULL, met = NULL;
 
+    TRY(bvh_build(&tree, source));
     TRY(device_open(&dev, -1));
-    TRY(ray_scene_open(&scene, dev, tree));
+    TRY(ray_scene_open(&scene, dev, &tree));
     TRY(device_allocate(dev, &ray, (size_t)count * sizeof(float[6]), rays));
     TRY(device_allocate(dev, &range, count * sizeof *out->range, NULL));
     TRY(device_allocate(dev, &facet, count * sizeof *out->facet, NULL));
@@ -80,6 +82,7 @@ out:
     device_release(ray);
     ray_scene_free(scene);
     device_free(dev);
+    bvh_free(tree);
     return rc;
 }
 
@@ -149,7 +152,6 @@ static status check(const char *name, uint32_t count, uint32_t *out_wrong)
     static const char *const lanes[] = {"16", "1"};
     status rc = STATUS_OK;
     bench_mesh *mesh = NULL;
-    bvh *tree = NULL;
     answers got = {0};
     double *range = NULL;
     float *rays = NULL;
@@ -166,13 +168,12 @@ static status check(const char *name, uint32_t count, uint32_t *out_wrong)
     triangle = malloc(count * sizeof *triangle);
     NEED(rays && range && triangle, STATUS_MEMORY, "no memory for %u rays", count);
     TRY(reserve(&got, count));
-    TRY(bvh_build(&tree, &source));
     make_rays(rays, count, mesh);
     TRY(brute_force_trace(mesh, rays, count, range, triangle));
     for (int l = 0; l < 2; l++) {
         tally sum = {0};
         setenv("RADSIG_RAY_LANES", lanes[l], 1);
-        TRY(trace(tree, rays, count, &got));
+        TRY(trace(&source, rays, count, &got));
         for (uint32_t i = 0; i < count; i++) {
             double ray[6];
             for (int k = 0; k < 6; k++) ray[k] = (double)rays[(size_t)k * count + i];
@@ -191,7 +192,6 @@ out:
     free(triangle);
     free(range);
     free(rays);
-    bvh_free(tree);
     bench_mesh_free(mesh);
     return rc;
 }

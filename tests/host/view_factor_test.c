@@ -51,7 +51,7 @@ static view_factors *trace(const double corner[3], const double along[3], const 
                                .position = (const float(*)[3])g->position};
     assert_int_equal(bvh_build(&tree, &source), STATUS_OK);
     assert_int_equal(device_open(&dev, -1), STATUS_OK);
-    assert_int_equal(ray_scene_open(&rays, dev, tree), STATUS_OK);
+    assert_int_equal(ray_scene_open(&rays, dev, &tree), STATUS_OK);
     assert_int_equal(shape_factor_open(&grid, dev, SHAPE_FACTOR_COSINE, 2.0, 3.0), STATUS_OK);
     if (view_factor_trace(&f, rays, grid, g, g->facet_count) != STATUS_OK)
         fail_msg("%s", status_message());
