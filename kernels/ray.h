@@ -120,10 +120,11 @@ static inline uint ray_meets(const ray_frame *f, global const bvh_block *block, 
     const float8 a = x[2] * y[1] - y[2] * x[1];
     const float8 b = x[0] * y[2] - y[0] * x[2];
     const float8 c = x[1] * y[0] - y[1] * x[0];
-    const float8 determinant = (a + b) + c;
-    const float8 range = ((a * z[0] + b * z[1]) + c * z[2]) * s.scale_z / determinant;
     const int8 front = ray_least(ray_least(a, b), c) >= 0.0f;
     const int8 back = ray_most(ray_most(a, b), c) <= f->back;
+    if (ray_mask(front | back) == 0) return 0;
+    const float8 determinant = (a + b) + c;
+    const float8 range = ((a * z[0] + b * z[1]) + c * z[2]) * s.scale_z / determinant;
     *out_range = range;
     return ray_mask((front | back) & (range > 0.0f) & (range <= limit));
 }

@@ -94,7 +94,7 @@ static inline ray_hit ray_packet_hit_of(const ray_packet_hit *hit, const uint la
 static inline uint ray_packet_few(const uint together, const uint in_leaf)
 {
     if (together) return in_leaf ? 1 : 0;
-    return in_leaf ? 4 : 2;
+    return 4;
 }
 
 /* A packet on its way through the tree; frames of single rays are made when they are needed. */
