@@ -129,7 +129,8 @@ static inline uint ray_meets(const ray_frame *f, global const bvh_block *block, 
     return ray_mask((front | back) & (range > 0.0f) & (range <= limit));
 }
 
-/* Asks for the memory of a child that will soon be visited. */
+/* Asks for the memory of a child that will soon be visited: the five lines of a block, or the four of a
+ * node and one more. */
 static inline void ray_fetch(global const bvh_node *nodes, global const bvh_block *blocks,
                              const uint word)
 {
@@ -138,7 +139,7 @@ static inline void ray_fetch(global const bvh_node *nodes, global const bvh_bloc
                                 ? (global const char *)(blocks + ((word & ~BVH_LEAF) >> 4))
                                 : (global const char *)(nodes + word);
     UNROLL
-    for (int line = 0; line < 4; line++) __builtin_prefetch((const void *)(size_t)(at + 64 * line));
+    for (int line = 0; line < 5; line++) __builtin_prefetch((const void *)(size_t)(at + 64 * line));
 #else
     (void)nodes, (void)blocks, (void)word;
 #endif
