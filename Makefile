@@ -221,17 +221,13 @@ BENCH_RAYS := $(patsubst %.c,$(BUILD)/%.o,$(wildcard bench/rays/*.c))
 BENCH_MESHES ?= airport hall terrain-54450 terrain-1280000 terrain-10000000
 BENCH_ROUNDS ?= 5
 
-## bench-rays: time rays against Embree (needs libembree-dev); BENCH_MESHES, BENCH_ROUNDS
+## bench-rays: time rays against Embree, which it installs; BENCH_MESHES, BENCH_ROUNDS
 bench-rays: deps scenes
-	@if dpkg-query -W -f='$${Status}' libembree-dev 2>/dev/null | grep -q 'ok installed'; then \
-	    $(MAKE) -s build/bench/rays.png; \
-	else echo "bench-rays was skipped: it needs the package libembree-dev"; fi
-
-.PHONY: build/bench/rays.png
-build/bench/rays.png: $(BUILD)/bench-rays
-	@mkdir -p $(@D)
-	$< build/bench/rays.csv $(BENCH_ROUNDS) $(BENCH_MESHES)
-	-$(PYTHON) bench/rays/plot.py build/bench/rays.csv $@
+	@$(call install,libembree-dev python3-matplotlib)
+	@$(MAKE) -s $(BUILD)/bench-rays
+	@mkdir -p build/bench
+	$(BUILD)/bench-rays build/bench/rays.csv $(BENCH_ROUNDS) $(BENCH_MESHES)
+	$(PYTHON) bench/rays/plot.py build/bench/rays.csv build/bench/rays.png
 
 $(BUILD)/bench-rays: $(BENCH_RAYS) $(BUILD)/library.a
 	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lembree3
