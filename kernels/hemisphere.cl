@@ -21,8 +21,8 @@ typedef struct hemisphere_scene {
 
 /* Rays of RAY_LANES points into the cells of a work-item: ray number `cell * RAY_LANES + lane`. */
 typedef struct hemisphere_rays {
-    float origin[3][RAY_LANES];
-    float direction[CELLS][3][RAY_LANES];
+    lanes origin[3];
+    lanes direction[CELLS][3];
     uint alive; /* a bit per point */
 } hemisphere_rays;
 
@@ -32,7 +32,7 @@ static void make_rays(hemisphere_rays *rays, const world_record *world, const ui
                       const uint count, global const hit_record *hit, global const float *cell,
                       const uint cell_count)
 {
-    lanes normal[3] = {(lanes)0.0f, (lanes)0.0f, (lanes)1.0f}, direction[3];
+    lanes normal[3] = {(lanes)0.0f, (lanes)0.0f, (lanes)1.0f};
 
     rays->alive = 0;
     for (uint i = 0; i < RAY_LANES && first + i < count; i++) {
@@ -43,13 +43,12 @@ static void make_rays(hemisphere_rays *rays, const world_record *world, const ui
             const lanes all = (lanes)at.normal[k];
             normal[k] = rays->alive == 1u << i ? all : normal[k];
             LANES_SET(normal[k], i, at.normal[k]);
-            rays->origin[k][i] = at.point[k] + world->offset_m * at.normal[k];
+            LANES_SET(rays->origin[k], i, at.point[k] + world->offset_m * at.normal[k]);
         }
     }
     const hemisphere_lanes frame = hemisphere_lanes_of(normal);
     for (uint c = 0; c < cell_count && rays->alive; c++) {
-        hemisphere_lanes_direction(&frame, cell + 4 * c, direction);
-        for (int k = 0; k < 3; k++) lanes_write(direction[k], rays->direction[c][k]);
+        hemisphere_lanes_direction(&frame, cell + 4 * c, rays->direction[c]);
     }
 }
 
@@ -65,8 +64,7 @@ static uint order_rays(const hemisphere_rays *rays, const uint cell_count, ushor
 
     for (uint c = 0; c < cell_count; c++) {
         const uchar16 cells =
-            ray_order_cells(vload16(0, rays->direction[c][0]), vload16(0, rays->direction[c][1]),
-                            vload16(0, rays->direction[c][2]));
+            ray_order_cells(rays->direction[c][0], rays->direction[c][1], rays->direction[c][2]);
         mixed += any(cells >> (uchar)4 != (uchar16)(cells.s0 >> 4));
         vstore16(cells, c, key);
     }
@@ -98,11 +96,11 @@ static ray_packet take_cell(const hemisphere_rays *rays, const world_record *wor
 
     ray_packet_clear(&p, world);
     p.alive = rays->alive;
-    for (uint k = 0; k < 3; k++)
-        for (uint i = 0; i < RAY_LANES; i++) {
-            p.origin[k][i] = rays->origin[k][i];
-            p.direction[k][i] = rays->direction[c][k][i];
-        }
+    UNROLL
+    for (uint k = 0; k < 3; k++) {
+        lanes_write(rays->origin[k], p.origin[k]);
+        lanes_write(rays->direction[c][k], p.direction[k]);
+    }
     return p;
 }
 
@@ -117,9 +115,10 @@ static ray_packet take_some(const hemisphere_rays *rays, const world_record *wor
     p.loose = 1;
     for (uint i = 0; i < RAY_LANES; i++) {
         const uint ray = order[i < count ? i : 0], lane = ray % RAY_LANES;
+        UNROLL
         for (uint k = 0; k < 3; k++) {
-            p.origin[k][i] = rays->origin[k][lane];
-            p.direction[k][i] = rays->direction[ray / RAY_LANES][k][lane];
+            p.origin[k][i] = ((const float *)&rays->origin[k])[lane];
+            p.direction[k][i] = ((const float *)&rays->direction[ray / RAY_LANES][k])[lane];
         }
     }
     return p;

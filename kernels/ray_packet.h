@@ -24,9 +24,9 @@ typedef struct ray_packet {
 
 /* What the lanes met, as ray_hit has it. */
 typedef struct ray_packet_hit {
-    float range[RAY_LANES];
-    uint facet[RAY_LANES];
-    uint triangle[RAY_LANES];
+    float range[RAY_LANES] __attribute__((aligned(64)));
+    uint facet[RAY_LANES] __attribute__((aligned(64)));
+    uint triangle[RAY_LANES] __attribute__((aligned(64)));
 } ray_packet_hit;
 
 static inline void ray_packet_clear(ray_packet *p, const world_record *world)
@@ -221,9 +221,9 @@ static inline void ray_packet_closest(global const bvh_node *nodes, global const
     }
 done:
     best.range = as_int16(best.facet) == -1 ? (float16)INFINITY : best.range;
-    vstore16(best.range, 0, out->range);
-    vstore16(best.facet, 0, out->facet);
-    vstore16(best.triangle, 0, out->triangle);
+    *(float16 *)out->range = best.range;
+    *(uint16 *)out->facet = best.facet;
+    *(uint16 *)out->triangle = best.triangle;
 }
 
 /* Puts the children that an active lane enters on the stack, the lanes above the word. */
