@@ -1,3 +1,4 @@
+#include "ray_pair.h"
 #include "ray_queue.h"
 
 #define LANES_WIDTH RAY_LANES
@@ -59,6 +60,25 @@ static uint face_sun(const lit_points *from, const float sun[3], ray_packet *out
     return faced;
 }
 
+/* Packets of full suns, of which two are cast together. */
+typedef struct sun_pair {
+    ray_packet packet[2];
+    uint faced[2], slot[2], count;
+} sun_pair;
+
+static void cast_pair(sun_pair *pair, global const bvh_node *nodes, global const bvh_block *blocks,
+                      uint bits[RAY_LANES])
+{
+    for (uint k = pair->count; k < 2; k++) pair->packet[k].alive = 0;
+    const uint met = ray_pair_any(nodes, blocks, pair->packet);
+
+    for (uint k = 0; k < pair->count; k++) {
+        const uint lit = pair->faced[k] & ~(met >> 16 * k);
+        for (uint i = 0; i < RAY_LANES; i++) bits[i] |= (lit >> i & 1u) << pair->slot[k];
+    }
+    pair->count = 0;
+}
+
 /* Casts the rays that wait, each marked by its slot and, five bits higher, its lane. */
 static void cast_queue(ray_queue *waiting, global const bvh_node *nodes,
                        global const bvh_block *blocks, uint bits[RAY_LANES])
@@ -88,24 +108,31 @@ kernel void sun_history(const uint count, const sun_day day, const world_record 
 
     const lit_points points = take_points(&world, facets, hit + first, lanes_here);
     ray_queue waiting = ray_queue_of(&world);
-    ray_packet packet;
+    sun_pair pair = {.count = 0};
 
-    ray_packet_clear(&packet, &world);
+    ray_packet_clear(&pair.packet[0], &world);
+    ray_packet_clear(&pair.packet[1], &world);
     for (uint slot = 0; slot < 32 && points.met; slot++) {
         float direction[3];
         vstore3(vload4(32 * word + slot, sun).xyz, 0, direction);
         if (direction[2] <= 0) continue;
-        const uint faced = face_sun(&points, direction, &packet);
-        const uint is_full = popcount(packet.alive) > FEW_RAYS;
-        const uint met = is_full ? ray_packet_any(nodes, blocks, &packet) : packet.alive;
+        ray_packet *packet = &pair.packet[pair.count];
+        const uint faced = face_sun(&points, direction, packet);
+        if (popcount(packet->alive) > FEW_RAYS) {
+            pair.faced[pair.count] = faced;
+            pair.slot[pair.count++] = slot;
+            if (pair.count == 2) cast_pair(&pair, nodes, blocks, bits);
+            continue;
+        }
         for (uint i = 0; i < RAY_LANES; i++) {
-            bits[i] |= (faced & ~met) >> i & 1u ? 1u << slot : 0u;
-            if (is_full || !(packet.alive >> i & 1)) continue;
-            const ray r = ray_packet_get(&packet, i);
+            bits[i] |= (faced & ~packet->alive) >> i & 1u ? 1u << slot : 0u;
+            if (!(packet->alive >> i & 1)) continue;
+            const ray r = ray_packet_get(packet, i);
             if (ray_queue_add(&waiting, &r, i << 5 | slot))
                 cast_queue(&waiting, nodes, blocks, bits);
         }
     }
+    cast_pair(&pair, nodes, blocks, bits);
     cast_queue(&waiting, nodes, blocks, bits);
     for (uint i = 0; i < lanes_here; i++) lit[(size_t)(first + i) * day.stride + word] = bits[i];
 }
