@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KERNEL_LIMIT = 32, PACKET = 16 };
+enum { KERNEL_LIMIT = 40, PACKET = 16 };
 
 /* Times are kept as events until someone waits; then they are added up. */
 enum { PENDING_LIMIT = 1024 };
@@ -259,18 +259,42 @@ out:
     return rc;
 }
 
+static status enqueue_download(device *dev, device_memory memory, size_t offset, size_t bytes,
+                               void *destination, cl_bool waits)
+{
+    status rc = STATUS_OK;
+    const cl_int error = bytes ? clEnqueueReadBuffer(dev->queue, memory, waits, offset, bytes,
+                                                     destination, 0, NULL, NULL)
+                               : CL_SUCCESS;
+
+    NEED(error == CL_SUCCESS, allocation_status(error), "device %s: reading %zu bytes: %s",
+         dev->info.name, bytes, device_error(error));
+out:
+    return rc;
+}
+
+status device_download_pieces(device *dev, const device_piece *pieces, size_t count)
+{
+    status rc = STATUS_OK;
+
+    TRY(collect_times(dev));
+    for (size_t i = 0; i < count; i++)
+        TRY(enqueue_download(dev, pieces[i].memory, pieces[i].offset, pieces[i].bytes,
+                             pieces[i].destination, CL_FALSE));
+out:
+    if (clFinish(dev->queue) != CL_SUCCESS && rc == STATUS_OK)
+        rc = status_set(STATUS_DEVICE, "device %s: reading %zu pieces failed", dev->info.name,
+                        count);
+    return rc;
+}
+
 status device_download(device *dev, device_memory memory, size_t offset, size_t bytes,
                        void *destination)
 {
     status rc = STATUS_OK;
-    cl_int error;
 
     TRY(collect_times(dev));
-    if (bytes == 0) goto out;
-    error =
-        clEnqueueReadBuffer(dev->queue, memory, CL_TRUE, offset, bytes, destination, 0, NULL, NULL);
-    NEED(error == CL_SUCCESS, allocation_status(error), "device %s: reading %zu bytes: %s",
-         dev->info.name, bytes, device_error(error));
+    TRY(enqueue_download(dev, memory, offset, bytes, destination, CL_TRUE));
 out:
     return rc;
 }

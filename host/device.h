@@ -45,6 +45,15 @@ status device_upload(device *dev, device_memory memory, size_t offset, size_t by
 status device_download(device *dev, device_memory memory, size_t offset, size_t bytes,
                        void *destination);
 
+typedef struct device_piece {
+    device_memory memory;
+    size_t offset, bytes;
+    void *destination;
+} device_piece;
+
+/* The same for many pieces, which are waited for once. */
+status device_download_pieces(device *dev, const device_piece *pieces, size_t count);
+
 typedef struct device_shape {
     size_t size[2];
     size_t local; /* work-items of a group, along x */
