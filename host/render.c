@@ -23,6 +23,7 @@ struct render {
     size_t stage_count;
     double stage_start_s;
     sun_memory *suns; /* NULL: the scene has one time */
+    render_tile_memory tile;
 };
 
 void render_prepare(device *dev, const atomic_bool *is_vain)
@@ -217,6 +218,7 @@ status render_move(render *r, const scene *s)
 
     r->stage_count = 0;
     r->stage_start_s = clock_now_s();
+    render_tile_free(&r->tile);
     r->shared.s = s;
     interreflection_free(r->shared.lights);
     incident_free(r->shared.around);
@@ -234,6 +236,7 @@ out:
 void render_free(render *r)
 {
     if (!r) return;
+    render_tile_free(&r->tile);
     free(r->planes);
     interreflection_free(r->shared.lights);
     incident_free(r->shared.around);
@@ -288,10 +291,12 @@ static uint32_t categorical_planes(const render *r)
 }
 
 /* Takes the planes of a tile of pixels that are wanted to where they belong. */
-static status download(const render *r, const render_tile_memory *t, uint32_t pixel_count,
-                       uint32_t first_pixel, float *const *values)
+static status download(const render *r, uint32_t pixel_count, uint32_t first_pixel,
+                       float *const *values)
 {
     status rc = STATUS_OK;
+    const render_tile_memory *t = &r->tile;
+    const bool has_means = t->samples > 1;
     const size_t row = band_plane_row(pixel_count), bands = band_plane_count(t->wants);
     device_piece *pieces = malloc((r->plane_count + 1) * sizeof *pieces);
     size_t count = 0;
@@ -301,13 +306,13 @@ static status download(const render *r, const render_tile_memory *t, uint32_t pi
         const uint32_t source = r->planes[i].source;
         device_piece *to = &pieces[count];
         if (!values[i]) continue;
-        *to = (device_piece){.memory = t->truth_planes,
+        *to = (device_piece){.memory = has_means ? t->mean_truth_planes : t->truth_planes,
                              .offset = (size_t)source * pixel_count * sizeof(float),
                              .bytes = pixel_count * sizeof(float),
                              .destination = values[i] + first_pixel};
         if (r->planes[i].is_of_band) {
             const uint32_t place = band_plane_place(t->wants, source % BAND_PLANES);
-            to->memory = t->band_planes;
+            to->memory = has_means ? t->mean_band_planes : t->band_planes;
             to->offset = (source / BAND_PLANES * bands + place) * row * sizeof(float);
         }
         count++;
@@ -322,15 +327,14 @@ status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float 
 {
     status rc = STATUS_OK;
     const uint32_t samples = render_tile_samples(&r->shared);
-    render_tile_memory t;
 
-    TRY(render_tile_open(&t, &r->shared, first_pixel * samples, pixel_count * samples,
+    TRY(render_tile_open(&r->tile, &r->shared, first_pixel * samples, pixel_count * samples,
                          band_wants(r, values)));
-    TRY(render_tile_compute(&t, &r->shared));
-    if (samples > 1) TRY(render_tile_average(&t, &r->shared, categorical_planes(r)));
-    TRY(download(r, &t, pixel_count, first_pixel, values));
+    TRY(render_tile_compute(&r->tile, &r->shared));
+    if (samples > 1) TRY(render_tile_average(&r->tile, &r->shared, categorical_planes(r)));
+    TRY(download(r, pixel_count, first_pixel, values));
 out:
-    render_tile_free(&t);
+    if (rc != STATUS_OK) render_tile_free(&r->tile);
     return rc;
 }
 
@@ -344,7 +348,7 @@ const spectra *render_spectra(const render *r)
 static status sample_terms(const render *r, uint32_t sample, size_t count, float *out)
 {
     status rc = STATUS_OK;
-    render_tile_memory t;
+    render_tile_memory t = {0};
 
     TRY(render_tile_open(&t, &r->shared, sample, 1, BAND_PLANE_PARTS));
     TRY(render_tile_compute(&t, &r->shared));

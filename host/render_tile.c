@@ -48,7 +48,7 @@ static status allocate_bands(render_tile_memory *t, const render_shared *r)
 {
     status rc = STATUS_OK;
     const uint32_t wants = wants_of_samples(r, t->wants);
-    const size_t row = band_plane_row(t->count);
+    const size_t row = band_plane_row(t->room);
     const size_t group_bytes =
         (size_t)band_plane_terms(wants) * r->frame.sample_count * PIXEL_GROUP * sizeof(float);
     size_t groups = TERM_BYTES / group_bytes / GROUPS_TOGETHER * GROUPS_TOGETHER;
@@ -64,16 +64,40 @@ out:
     return rc;
 }
 
-status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t first,
-                        uint32_t count, uint32_t wants)
+static status allocate_bodies(render_tile_memory *t, const render_shared *r)
 {
     status rc = STATUS_OK;
-    const size_t n = count;
+    const size_t n = t->room;
 
-    *t = (render_tile_memory){.first = first,
-                              .count = count,
-                              .points = {.count = count},
-                              .wants = wants | 1u << BAND_RADIANCE};
+    TRY(device_allocate(r->dev, &t->body_paths, n * TRANSMISSION_PATHS * sizeof(transmission_path),
+                        NULL));
+    TRY(device_allocate(r->dev, &t->direct, n * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &t->background_direct, n * sizeof(float), NULL));
+out:
+    return rc;
+}
+
+/* What the planes of pixels need beside those of their samples. */
+static status allocate_means(render_tile_memory *t, const render_shared *r)
+{
+    status rc = STATUS_OK;
+    const size_t pixels = t->room / t->samples;
+
+    TRY(device_allocate(r->dev, &t->mean_truth_planes,
+                        pixels * (TRUTH_PLANES + SUN_PLANES) * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &t->mean_band_planes,
+                        (size_t)band_plane_row((uint32_t)pixels) * r->s->band_count *
+                            band_plane_count(t->wants) * sizeof(float),
+                        NULL));
+out:
+    return rc;
+}
+
+static status allocate(render_tile_memory *t, const render_shared *r)
+{
+    status rc = STATUS_OK;
+    const size_t n = t->room;
+
     TRY(device_allocate(r->dev, &t->points.hit, n * sizeof(hit_record), NULL));
     TRY(device_allocate(r->dev, &t->points.met,
                         n * shape_factor_cell_count(r->grid) * sizeof(uint32_t), NULL));
@@ -89,21 +113,39 @@ status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t 
                             NULL));
     if (has_incident(r) && scene_is_rough(r->s))
         TRY(device_allocate(r->dev, &t->gloss, n * LOBE_RAYS * sizeof(uint32_t), NULL));
-    if (r->bodies) {
-        TRY(device_allocate(r->dev, &t->body_paths,
-                            n * TRANSMISSION_PATHS * sizeof(transmission_path), NULL));
-        TRY(device_allocate(r->dev, &t->direct, n * sizeof(float), NULL));
-        TRY(device_allocate(r->dev, &t->background_direct, n * sizeof(float), NULL));
-    }
+    if (r->bodies) TRY(allocate_bodies(t, r));
     TRY(device_allocate(r->dev, &t->truth_planes, n * (TRUTH_PLANES + SUN_PLANES) * sizeof(float),
                         NULL));
     TRY(allocate_bands(t, r));
+    if (t->samples > 1) TRY(allocate_means(t, r));
 out:
+    return rc;
+}
+
+status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t first,
+                        uint32_t count, uint32_t wants)
+{
+    status rc = STATUS_OK;
+    const uint32_t planes = wants | 1u << BAND_RADIANCE, samples = render_tile_samples(r);
+
+    if (count > t->room || planes != t->wants || samples != t->samples ||
+        r->is_coarse != t->is_coarse) {
+        render_tile_free(t);
+        *t = (render_tile_memory){
+            .room = count, .wants = planes, .samples = samples, .is_coarse = r->is_coarse};
+        TRY(allocate(t, r));
+    }
+    t->first = first;
+    t->count = t->points.count = count;
+out:
+    if (rc != STATUS_OK) render_tile_free(t);
     return rc;
 }
 
 void render_tile_free(render_tile_memory *t)
 {
+    device_release(t->mean_band_planes);
+    device_release(t->mean_truth_planes);
     device_release(t->terms);
     device_release(t->emissivities);
     device_release(t->band_planes);
@@ -121,6 +163,7 @@ void render_tile_free(render_tile_memory *t)
     device_release(t->lit);
     device_release(t->points.met);
     device_release(t->points.hit);
+    *t = (render_tile_memory){0};
 }
 
 /* What the pixels see, what lights them, and what stands around them. */
@@ -266,36 +309,18 @@ out:
     return rc;
 }
 
-static void swap(device_memory *one, device_memory *other)
-{
-    const device_memory kept = *one;
-
-    *one = *other;
-    *other = kept;
-}
-
-status render_tile_average(render_tile_memory *t, const render_shared *r, uint32_t categorical)
+status render_tile_average(const render_tile_memory *t, const render_shared *r,
+                           uint32_t categorical)
 {
     status rc = STATUS_OK;
-    const uint32_t per_pixel = render_tile_samples(r), pixels = t->count / per_pixel;
-    const uint32_t has = wants_of_samples(r, t->wants);
+    const uint32_t pixels = t->count / t->samples, has = wants_of_samples(r, t->wants);
     const uint32_t truth_count = TRUTH_PLANES + SUN_PLANES, band_count = r->s->band_count;
-    device_memory truth = NULL, bands = NULL;
 
-    TRY(device_allocate(r->dev, &truth, (size_t)pixels * truth_count * sizeof(float), NULL));
-    TRY(device_allocate(r->dev, &bands,
-                        (size_t)band_plane_row(pixels) * band_count * band_plane_count(t->wants) *
-                            sizeof(float),
-                        NULL));
-    TRY(device_run(r->dev, "truth_mean", shape2(pixels, truth_count), ARG(pixels), ARG(per_pixel),
-                   ARG(categorical), ARG(t->truth_planes), ARG(truth)));
-    TRY(device_run(r->dev, "band_mean", shape2(pixels, band_count), ARG(pixels), ARG(per_pixel),
+    TRY(device_run(r->dev, "truth_mean", shape2(pixels, truth_count), ARG(pixels), ARG(t->samples),
+                   ARG(categorical), ARG(t->truth_planes), ARG(t->mean_truth_planes)));
+    TRY(device_run(r->dev, "band_mean", shape2(pixels, band_count), ARG(pixels), ARG(t->samples),
                    ARG(t->wants), ARG(has), ARG(r->tables.band_records), ARG(r->tables.ln_radiance),
-                   ARG(t->band_planes), ARG(bands)));
-    swap(&t->truth_planes, &truth);
-    swap(&t->band_planes, &bands);
+                   ARG(t->band_planes), ARG(t->mean_band_planes)));
 out:
-    device_release(bands);
-    device_release(truth);
     return rc;
 }

@@ -9,7 +9,7 @@
 #define BAND_PLANE_PARTS (((1u << RADIANCE_PARTS) - 1u) << BAND_PARTS)
 
 /* How many planes a band has.
- *   wants   bit k: plane k of BAND_PLANES is there */
+ *   wants   bit k: plane k of BAND_PLANES is there; the radiance always is */
 static inline uint band_plane_count(uint wants)
 {
     uint count = 0;

@@ -1,28 +1,33 @@
 #include "band_plane.h"
 #include "band_temperature.h"
 
-/* What a band's planes are made from, of one group of pixels. */
+/* What the planes of one group of pixels are made from. */
 typedef struct band_source {
-    global const float *weights;    /* of the band */
-    global const float *terms;      /* shape (band_plane_terms, sample_count, PIXEL_GROUP) */
-    global const float *emissivity; /* of the band: one every band_count */
-    global const emissivity_record *emissivities; /* shape (pixels, 2) */
-    global const float *ln_radiance;
+    global const band_record *band;
+    global const float *weights; /* of the band */
+    global const float *terms;   /* shape (band_plane_terms, sample_count, PIXEL_GROUP) */
+    uint sample_count;
+    global const float *emissivity; /* of the band, one every band_count */
+    uint band_count;
+    global const emissivity_record *emissivities; /* shape (count, 2) */
+    uint count;                                   /* of pixels */
+    global const float *ln_radiance;              /* of the band */
 } band_source;
 
 /* Integral of one spectrum over a band, eq. 2.4-3. Sums of few samples are summed: nothing is lost
  * where there are hundreds. */
-static lanes integrate(band_source from, radiometry_record frame, band_record band, uint term)
+static lanes integrate(const band_source *from, uint term)
 {
-    global const float *sample =
-        from.terms + ((size_t)term * frame.sample_count + band.first_sample) * PIXEL_GROUP;
+    const uint count = from->band->sample_count;
+    const size_t first = (size_t)term * from->sample_count + from->band->first_sample;
+    global const lanes *sample = (global const lanes *)from->terms + first;
+    global const float *weight = from->weights;
     lanes sum = (lanes)0.0f;
 
-    for (uint first = 0; first < band.sample_count; first += SPECTRA_BLOCK) {
-        const uint end = min(first + SPECTRA_BLOCK, band.sample_count);
+    for (uint i = 0; i < count;) {
+        const uint end = min(i + SPECTRA_BLOCK, count);
         lanes some = (lanes)0.0f;
-        for (uint i = first; i < end; i++)
-            some = fma((lanes)from.weights[i], vload16(i, sample), some);
+        for (; i < end; i++) some = fma((lanes)weight[i], sample[i], some);
         sum += some;
     }
     return sum;
@@ -35,45 +40,33 @@ static lanes apparent_celsius(global const float *ln_radiance, lanes radiance)
     return kelvin > 0.0f ? kelvin - ZERO_CELSIUS_K : (lanes)NO_VALUE;
 }
 
-/* Mean emissivities of a group over a band.
+/* Mean emissivities over a band.
  *   which   0: of the targets, 1: of their backgrounds */
-static lanes mean_emissivity(band_source from, radiometry_record frame, uint which, uint count)
+static lanes mean_emissivity(const band_source *from, uint which)
 {
     lanes out = (lanes)NO_VALUE;
 
-    for (uint i = 0; i < count; i++) {
-        const emissivity_record at = from.emissivities[2u * i + which];
+    for (uint i = 0; i < from->count; i++) {
+        const emissivity_record at = from->emissivities[2u * i + which];
         if (at.low == RECORD_NONE) continue;
-        const float low = from.emissivity[(size_t)at.low * frame.band_count];
-        const float high = from.emissivity[(size_t)at.high * frame.band_count];
+        const float low = from->emissivity[(size_t)at.low * from->band_count];
+        const float high = from->emissivity[(size_t)at.high * from->band_count];
         LANES_SET(out, i, low + (high - low) * at.share);
     }
     return out;
 }
 
-/* Writes the planes of one band and group.
- *   out   shape (band_plane_count, row), of this band, from the group's pixels on */
-static void write_planes(band_source from, radiometry_record frame, band_record band, uint count,
-                         uint row, global float *out)
+/* One plane of a band, other than the radiance.
+ *   radiance   in band */
+static lanes plane_of(const band_source *from, uint plane, lanes radiance)
 {
-    const float per_um = 1.0f / band.width_um, scale = band.is_mean ? per_um : 1.0f;
-    const lanes radiance = integrate(from, frame, band, band_plane_terms(frame.wants) - 1u);
+    const float per_um = 1.0f / from->band->width_um;
 
-    for (uint k = 0; k < BAND_PLANES; k++) {
-        lanes value = radiance * scale;
-        if (!(frame.wants >> k & 1u)) continue;
-        if (k == BAND_COUNTS)
-            value = band.gain * radiance + band.offset;
-        else if (k == BAND_APPARENT)
-            value = apparent_celsius(from.ln_radiance, radiance);
-        else if (k == BAND_EMISSIVITY || k == BAND_BACKGROUND_EMISSIVITY)
-            value = mean_emissivity(from, frame, k - BAND_EMISSIVITY, count);
-        else if (k >= BAND_PARTS)
-            value =
-                integrate(from, frame, band, k - BAND_PARTS) * (k == BAND_TAU2 ? per_um : scale);
-        vstore16(value, 0, out);
-        out += row;
-    }
+    if (plane == BAND_COUNTS) return from->band->gain * radiance + from->band->offset;
+    if (plane == BAND_APPARENT) return apparent_celsius(from->ln_radiance, radiance);
+    if (plane < BAND_PARTS) return mean_emissivity(from, plane - BAND_EMISSIVITY);
+    return integrate(from, plane - BAND_PARTS) *
+           (plane == BAND_TAU2 || from->band->is_mean ? per_um : 1.0f);
 }
 
 /* Planes of the bands from the spectra of groups of neighbouring pixels, eq. 2.4-3.
@@ -94,18 +87,27 @@ kernel void band_planes(const radiometry_record frame, global const band_record 
     const uint group = get_global_id(0), first = (frame.first_group + group) * PIXEL_GROUP;
     if (first >= frame.pixel_count) return;
 
-    const uint count = min(PIXEL_GROUP, frame.pixel_count - first);
-    const uint row = band_plane_row(frame.pixel_count);
-    const size_t band_length = (size_t)band_plane_count(frame.wants) * row;
-    band_source from = {.emissivities = emissivities + 2u * first};
+    const uint term_count = band_plane_terms(frame.wants);
+    const uint row = band_plane_row(frame.pixel_count) / PIXEL_GROUP;
+    band_source from = {.sample_count = frame.sample_count,
+                        .band_count = frame.band_count,
+                        .emissivities = emissivities + 2u * first,
+                        .count = min(PIXEL_GROUP, frame.pixel_count - first)};
+    global lanes *out = (global lanes *)planes + first / PIXEL_GROUP;
 
-    from.terms =
-        terms + (size_t)group * band_plane_terms(frame.wants) * frame.sample_count * PIXEL_GROUP;
+    from.terms = terms + (size_t)group * term_count * frame.sample_count * PIXEL_GROUP;
     for (uint b = 0; b < frame.band_count; b++) {
-        const band_record band = bands[b];
-        from.weights = weights + band.first_weight;
+        from.band = bands + b;
+        from.weights = weights + bands[b].first_weight;
         from.emissivity = band_emissivity + b;
         from.ln_radiance = ln_radiance + (size_t)b * BAND_TEMPERATURES;
-        write_planes(from, frame, band, count, row, planes + first + b * band_length);
+        const lanes radiance = integrate(&from, term_count - 1u);
+        *out = bands[b].is_mean ? radiance / bands[b].width_um : radiance;
+        out += row;
+        for (uint k = 1; frame.wants >> k; k++) {
+            if (!(frame.wants >> k & 1u)) continue;
+            *out = plane_of(&from, k, radiance);
+            out += row;
+        }
     }
 }
