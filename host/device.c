@@ -259,44 +259,43 @@ out:
     return rc;
 }
 
-static status enqueue_download(device *dev, device_memory memory, size_t offset, size_t bytes,
-                               void *destination, cl_bool waits)
+status device_download(device *dev, device_memory memory, size_t offset, size_t bytes,
+                       void *destination)
 {
     status rc = STATUS_OK;
-    const cl_int error = bytes ? clEnqueueReadBuffer(dev->queue, memory, waits, offset, bytes,
-                                                     destination, 0, NULL, NULL)
-                               : CL_SUCCESS;
+    cl_int error;
 
+    TRY(collect_times(dev));
+    if (bytes == 0) goto out;
+    error =
+        clEnqueueReadBuffer(dev->queue, memory, CL_TRUE, offset, bytes, destination, 0, NULL, NULL);
     NEED(error == CL_SUCCESS, allocation_status(error), "device %s: reading %zu bytes: %s",
          dev->info.name, bytes, device_error(error));
 out:
     return rc;
 }
 
-status device_download_pieces(device *dev, const device_piece *pieces, size_t count)
+status device_map(device *dev, device_memory memory, size_t bytes, const void **out)
 {
     status rc = STATUS_OK;
+    cl_int error;
+    void *mapped;
 
     TRY(collect_times(dev));
-    for (size_t i = 0; i < count; i++)
-        TRY(enqueue_download(dev, pieces[i].memory, pieces[i].offset, pieces[i].bytes,
-                             pieces[i].destination, CL_FALSE));
+    mapped = clEnqueueMapBuffer(dev->queue, memory, CL_TRUE, CL_MAP_READ, 0, bytes, 0, NULL, NULL,
+                                &error);
+    NEED(mapped, allocation_status(error), "device %s: mapping %zu bytes: %s", dev->info.name,
+         bytes, device_error(error));
+    *out = mapped;
 out:
-    if (clFinish(dev->queue) != CL_SUCCESS && rc == STATUS_OK)
-        rc = status_set(STATUS_DEVICE, "device %s: reading %zu pieces failed", dev->info.name,
-                        count);
     return rc;
 }
 
-status device_download(device *dev, device_memory memory, size_t offset, size_t bytes,
-                       void *destination)
+void device_unmap(device *dev, device_memory memory, const void *mapped)
 {
-    status rc = STATUS_OK;
-
-    TRY(collect_times(dev));
-    TRY(enqueue_download(dev, memory, offset, bytes, destination, CL_TRUE));
-out:
-    return rc;
+    if (!mapped) return;
+    clEnqueueUnmapMemObject(dev->queue, memory, (void *)mapped, 0, NULL, NULL);
+    clFinish(dev->queue);
 }
 
 static status build_failure(device *dev, const char *name, cl_program program, cl_int error)

@@ -45,14 +45,10 @@ status device_upload(device *dev, device_memory memory, size_t offset, size_t by
 status device_download(device *dev, device_memory memory, size_t offset, size_t bytes,
                        void *destination);
 
-typedef struct device_piece {
-    device_memory memory;
-    size_t offset, bytes;
-    void *destination;
-} device_piece;
-
-/* The same for many pieces, which are waited for once. */
-status device_download_pieces(device *dev, const device_piece *pieces, size_t count);
+/* Lets the host read memory from its start, without a copy where device and host share theirs, until
+ * it is unmapped. Waits as device_download does. */
+status device_map(device *dev, device_memory memory, size_t bytes, const void **out);
+void device_unmap(device *dev, device_memory memory, const void *mapped); /* NULL is allowed */
 
 typedef struct device_shape {
     size_t size[2];

@@ -290,40 +290,8 @@ static uint32_t categorical_planes(const render *r)
     return bits;
 }
 
-/* Takes the planes of a tile of pixels that are wanted to where they belong. */
-static status download(const render *r, uint32_t pixel_count, uint32_t first_pixel,
-                       float *const *values)
-{
-    status rc = STATUS_OK;
-    const render_tile_memory *t = &r->tile;
-    const bool has_means = t->samples > 1;
-    const size_t row = band_plane_row(pixel_count), bands = band_plane_count(t->wants);
-    device_piece *pieces = malloc((r->plane_count + 1) * sizeof *pieces);
-    size_t count = 0;
-
-    NEED(pieces, STATUS_MEMORY, "no memory for a list of planes");
-    for (size_t i = 0; i < r->plane_count; i++) {
-        const uint32_t source = r->planes[i].source;
-        device_piece *to = &pieces[count];
-        if (!values[i]) continue;
-        *to = (device_piece){.memory = has_means ? t->mean_truth_planes : t->truth_planes,
-                             .offset = (size_t)source * pixel_count * sizeof(float),
-                             .bytes = pixel_count * sizeof(float),
-                             .destination = values[i] + first_pixel};
-        if (r->planes[i].is_of_band) {
-            const uint32_t place = band_plane_place(t->wants, source % BAND_PLANES);
-            to->memory = has_means ? t->mean_band_planes : t->band_planes;
-            to->offset = (source / BAND_PLANES * bands + place) * row * sizeof(float);
-        }
-        count++;
-    }
-    TRY(device_download_pieces(r->shared.dev, pieces, count));
-out:
-    free(pieces);
-    return rc;
-}
-
-status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float *const *values)
+status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float *const *values,
+                   const render_store *store)
 {
     status rc = STATUS_OK;
     const uint32_t samples = render_tile_samples(&r->shared);
@@ -332,7 +300,7 @@ status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float 
                          band_wants(r, values)));
     TRY(render_tile_compute(&r->tile, &r->shared));
     if (samples > 1) TRY(render_tile_average(&r->tile, &r->shared, categorical_planes(r)));
-    TRY(download(r, pixel_count, first_pixel, values));
+    TRY(render_tile_store(&r->tile, &r->shared, r->planes, r->plane_count, values, store));
 out:
     if (rc != STATUS_OK) render_tile_free(&r->tile);
     return rc;

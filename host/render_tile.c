@@ -5,6 +5,8 @@
 
 #include "sunlight.h"
 
+#include <string.h>
+
 enum { TILE_BYTES = 1 << 27, TILE_LEAST = 1 << 10, TILE_MOST = 1 << 16 };
 
 /* Spectra are integrated while they are in a cache. Groups of pixels of a work-group, and the least
@@ -322,5 +324,59 @@ status render_tile_average(const render_tile_memory *t, const render_shared *r,
                    ARG(t->wants), ARG(has), ARG(r->tables.band_records), ARG(r->tables.ln_radiance),
                    ARG(t->band_planes), ARG(t->mean_band_planes)));
 out:
+    return rc;
+}
+
+/* What the planes of a tile are, as the host sees them. */
+typedef struct tile_view {
+    uint32_t first, count, wants;
+    const float *truth, *bands;
+} tile_view;
+
+static const float *plane_in(const tile_view *v, const render_plane *p)
+{
+    const uint32_t place = band_plane_place(v->wants, p->source % BAND_PLANES);
+    const size_t before = (size_t)(p->source / BAND_PLANES) * band_plane_count(v->wants);
+
+    return p->is_of_band ? v->bands + (before + place) * band_plane_row(v->count)
+                         : v->truth + (size_t)p->source * v->count;
+}
+
+static status store_planes(const tile_view *v, const render_plane *planes, size_t plane_count,
+                           float *const *values, const render_store *store)
+{
+    status rc = STATUS_OK;
+
+    for (size_t i = 0; i < plane_count; i++) {
+        if (!values[i]) continue;
+        const float *from = plane_in(v, &planes[i]);
+        if (store)
+            TRY(store->write(store->self, i, v->first, v->count, from));
+        else
+            memcpy(values[i] + v->first, from, v->count * sizeof *from);
+    }
+out:
+    return rc;
+}
+
+status render_tile_store(const render_tile_memory *t, const render_shared *r,
+                         const render_plane *planes, size_t plane_count, float *const *values,
+                         const render_store *store)
+{
+    status rc = STATUS_OK;
+    const device_memory truth = t->samples > 1 ? t->mean_truth_planes : t->truth_planes;
+    const device_memory bands = t->samples > 1 ? t->mean_band_planes : t->band_planes;
+    tile_view v = {
+        .first = t->first / t->samples, .count = t->count / t->samples, .wants = t->wants};
+    const size_t truth_length = (size_t)(TRUTH_PLANES + SUN_PLANES) * v.count;
+    const size_t rows = (size_t)r->s->band_count * band_plane_count(t->wants);
+
+    TRY(device_map(r->dev, truth, truth_length * sizeof(float), (const void **)&v.truth));
+    TRY(device_map(r->dev, bands, rows * band_plane_row(v.count) * sizeof(float),
+                   (const void **)&v.bands));
+    TRY(store_planes(&v, planes, plane_count, values, store));
+out:
+    device_unmap(r->dev, bands, v.bands);
+    device_unmap(r->dev, truth, v.truth);
     return rc;
 }

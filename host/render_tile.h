@@ -4,6 +4,7 @@
 
 #include "incident.h"
 #include "ray_scene.h"
+#include "render_plane.h"
 #include "render_tables.h"
 #include "shape_factor.h"
 #include "temperature.h"
@@ -64,5 +65,11 @@ status render_tile_compute(const render_tile_memory *t, const render_shared *r);
  *   categorical   bit k: truth plane k holds numbers of things */
 status render_tile_average(const render_tile_memory *t, const render_shared *r,
                            uint32_t categorical);
+
+/* Takes the wanted planes of the tile's pixels to where they belong.
+ *   planes, values   shape (plane_count); values and store: as render_tile has them */
+status render_tile_store(const render_tile_memory *t, const render_shared *r,
+                         const render_plane *planes, size_t plane_count, float *const *values,
+                         const render_store *store);
 
 #endif
