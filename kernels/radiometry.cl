@@ -179,6 +179,14 @@ static block_terms look_at_sky(const pixel_state *pixel, spectra_tables tables,
     return out;
 }
 
+static block_terms look(const pixel_state *pixel, spectra_tables tables, radiometry_record frame,
+                        const air_record *air, uint block)
+{
+    if (pixel->interaction == INTERACTION_MISSED)
+        return look_at_sky(pixel, tables, frame, air, block);
+    return look_at_target(pixel, tables, frame, air, block);
+}
+
 /* Where the emissivities of a pixel stand: of the target, and of its background. */
 static void store_emissivities(const pixel_state *pixel, global emissivity_record *out)
 {
@@ -219,7 +227,15 @@ static pixel_state pixel_look(radiometry_record frame, const air_record *air, ca
     return state;
 }
 
-/* Writes a block of one spectrum of a group, sample by sample.
+/* Blocks of a pixel that are computed before those of the next one, whose rows lie apart. */
+#define BLOCKS_TOGETHER 8u
+
+/* Some blocks of the spectra of a group. */
+typedef struct group_terms {
+    spectrum of[SENSOR_TERMS][BLOCKS_TOGETHER][PIXEL_GROUP];
+} group_terms;
+
+/* Writes a block of one spectrum, sample by sample.
  *   of_pixel   shape (PIXEL_GROUP)
  *   out        shape (sample_count, PIXEL_GROUP) */
 static void store_block(const spectrum *of_pixel, uint block, global float *out)
@@ -234,6 +250,16 @@ static void store_block(const spectrum *of_pixel, uint block, global float *out)
 #else
     for (uint i = 0; i < PIXEL_GROUP; i++) out[(size_t)block * PIXEL_GROUP + i] = of_pixel[i];
 #endif
+}
+
+/* Writes `count` blocks, from `first` on.
+ *   out   shape (term_count, sample_count, PIXEL_GROUP) */
+static void store_terms(const group_terms *terms, uint term_count, uint first, uint count,
+                        uint sample_count, global float *out)
+{
+    for (uint k = 0; k < term_count; k++)
+        for (uint b = 0; b < count; b++)
+            store_block(terms->of[k][b], first + b, out + (size_t)k * sample_count * PIXEL_GROUP);
 }
 
 /* Spectra of what reaches the sensor, eq. 2.4-1 and 2.4-2, of groups of neighbouring pixels.
@@ -263,13 +289,12 @@ kernel void radiometry(const radiometry_record frame, const air_record air,
     if (first >= frame.pixel_count) return;
 
     const uint count = min(PIXEL_GROUP, frame.pixel_count - first);
-    const uint term_count = band_plane_terms(frame.wants);
-    const size_t term_length = (size_t)frame.sample_count * PIXEL_GROUP;
+    const uint term_count = band_plane_terms(frame.wants), row = frame.sample_count;
+    const uint blocks = row / SPECTRUM_WIDTH;
     spectra_tables tables = {spectra, emissivity, 0, extinction, bodies};
     pixel_state state[PIXEL_GROUP];
-    spectrum term[SENSOR_TERMS][PIXEL_GROUP];
+    group_terms own;
 
-    terms += group * term_count * term_length;
     for (uint i = 0; i < count; i++) {
         const uint pixel = first + i;
         state[i] =
@@ -277,19 +302,21 @@ kernel void radiometry(const radiometry_record frame, const air_record air,
                        background_sunlit[pixel], facets, materials, temperature_k[pixel]);
         store_emissivities(&state[i], emissivities + 2u * pixel);
     }
-    for (uint k = 0; k < term_count; k++)
-        for (uint i = count; i < PIXEL_GROUP; i++) term[k][i] = (spectrum)0.0f;
-    for (uint block = 0; block < frame.sample_count / SPECTRUM_WIDTH; block++) {
+    for (uint k = 0; k < SENSOR_TERMS * BLOCKS_TOGETHER; k++)
+        for (uint i = count; i < PIXEL_GROUP; i++)
+            own.of[k / BLOCKS_TOGETHER][k % BLOCKS_TOGETHER][i] = (spectrum)0.0f;
+    terms += (size_t)group * term_count * row * PIXEL_GROUP;
+    for (uint block = 0; block < blocks; block += BLOCKS_TOGETHER) {
+        const uint together = min(BLOCKS_TOGETHER, blocks - block);
         for (uint i = 0; i < count; i++) {
-            if (!frame.thesis)
-                tables.incident = incident + (size_t)(first + i) * 2u * frame.sample_count;
+            if (!frame.thesis) tables.incident = incident + (size_t)(first + i) * 2u * row;
             tables.bodies = bodies + first + i;
-            const block_terms seen = state[i].interaction == INTERACTION_MISSED
-                                         ? look_at_sky(&state[i], tables, frame, &air, block)
-                                         : look_at_target(&state[i], tables, frame, &air, block);
-            for (uint k = 0; k + 1u < term_count; k++) term[k][i] = seen.part[k];
-            term[term_count - 1u][i] = seen.radiance;
+            for (uint b = 0; b < together; b++) {
+                const block_terms seen = look(&state[i], tables, frame, &air, block + b);
+                for (uint k = 0; k + 1u < term_count; k++) own.of[k][b][i] = seen.part[k];
+                own.of[term_count - 1u][b][i] = seen.radiance;
+            }
         }
-        for (uint k = 0; k < term_count; k++) store_block(term[k], block, terms + k * term_length);
+        store_terms(&own, term_count, block, together, row, terms);
     }
 }
