@@ -53,11 +53,11 @@ def main():
     def median(each, *kernels):
         return statistics.median(sum(r[k] for k in kernels or r) for r in runs[each])
 
-    for text, kernels in (("band_planes.cl, which integrates spectra over bands", ["band_planes"]),
-                          ("and with radiometry.cl, which makes them",
+    for text, kernels in (("in band_planes.cl, which integrates spectra over bands", ["band_planes"]),
+                          ("with radiometry.cl, which makes them",
                            ["band_planes", "radiometry"])):
         rate = 400 * SIZE**2 / median(wanted[0], *kernels) / 1e9
-        print(f"400 bands: {rate:.3f} G pixel-bands/s in {text}")
+        print(f"400 bands: {rate:.3f} G pixel-bands/s {text}")
     for mode in ("exact", "thesis"):
         ratio = median(("visible", mode)) / median(("infrared", mode))
         print(f"{mode} mode: the visible costs {ratio:.2f} times the infrared, all kernels; "
