@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KERNEL_LIMIT = 32, PACKET = 16 };
+enum { KERNEL_LIMIT = 40, PACKET = 16 };
 
 /* Times are kept as events until someone waits; then they are added up. */
 enum { PENDING_LIMIT = 1024 };
@@ -284,6 +284,29 @@ status device_download(device *dev, device_memory memory, size_t offset, size_t 
          dev->info.name, bytes, device_error(error));
 out:
     return rc;
+}
+
+status device_map(device *dev, device_memory memory, size_t bytes, const void **out)
+{
+    status rc = STATUS_OK;
+    cl_int error;
+    void *mapped;
+
+    TRY(collect_times(dev));
+    mapped = clEnqueueMapBuffer(dev->queue, memory, CL_TRUE, CL_MAP_READ, 0, bytes, 0, NULL, NULL,
+                                &error);
+    NEED(mapped, allocation_status(error), "device %s: mapping %zu bytes: %s", dev->info.name,
+         bytes, device_error(error));
+    *out = mapped;
+out:
+    return rc;
+}
+
+void device_unmap(device *dev, device_memory memory, const void *mapped)
+{
+    if (!mapped) return;
+    clEnqueueUnmapMemObject(dev->queue, memory, (void *)mapped, 0, NULL, NULL);
+    clFinish(dev->queue);
 }
 
 static status build_failure(device *dev, const char *name, cl_program program, cl_int error)

@@ -49,6 +49,11 @@ status device_upload(device *dev, device_memory memory, size_t offset, size_t by
 status device_download(device *dev, device_memory memory, size_t offset, size_t bytes,
                        void *destination);
 
+/* Lets the host read memory from its start, without a copy where device and host share theirs, until
+ * it is unmapped. Waits as device_download does. */
+status device_map(device *dev, device_memory memory, size_t bytes, const void **out);
+void device_unmap(device *dev, device_memory memory, const void *mapped); /* NULL is allowed */
+
 typedef struct device_shape {
     size_t size[2];
     size_t local; /* work-items of a group, along x */

@@ -24,6 +24,7 @@ struct image {
     size_t bytes;
     char *stem;
     const output_file *header; /* belongs to the folder */
+    int file;                  /* -1: none */
 };
 
 static status copy_planes(image *img, const image_plane *plane, size_t plane_count)
@@ -50,7 +51,7 @@ static status map_values(image *img, const output_file *place)
 {
     status rc = STATUS_OK;
     const char *path = output_file_path(place);
-    int error, file = -1;
+    int error, file;
     void *map = MAP_FAILED;
 
     NEED(img->columns && img->rows, STATUS_ARGUMENT, "%s: an image of %u x %u pixels", img->stem,
@@ -59,7 +60,8 @@ static status map_values(image *img, const output_file *place)
          STATUS_ARGUMENT, "%s: %u x %u pixels of %zu planes are too many", img->stem, img->columns,
          img->rows, img->plane_count);
     img->bytes = (size_t)img->columns * img->rows * img->plane_count * sizeof(float);
-    file = open(output_file_temporary_path(place), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    file = img->file =
+        open(output_file_temporary_path(place), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     NEED(file >= 0, STATUS_FILE, "%s: %s", path, strerror(errno));
     error = posix_fallocate(file, 0, (off_t)img->bytes);
     NEED(error == 0, STATUS_FILE, "%s: no place for %zu bytes: %s", path, img->bytes,
@@ -69,7 +71,6 @@ static status map_values(image *img, const output_file *place)
          strerror(errno));
     img->value = map;
 out:
-    if (file >= 0) close(file);
     return rc;
 }
 
@@ -97,6 +98,7 @@ status image_create(image **out, output_folder *folder, const char *stem, uint32
 
     NEED(img, STATUS_MEMORY, "%s: no memory to write it", stem);
     assert(plane_count > 0);
+    img->file = -1;
     img->stem = strdup(stem);
     NEED(img->stem, STATUS_MEMORY, "%s: no memory to write it", stem);
     img->columns = columns;
@@ -116,6 +118,25 @@ float *image_values(image *img, size_t plane)
 {
     assert(plane < img->plane_count);
     return img->value + plane * img->columns * img->rows;
+}
+
+status image_write(image *img, size_t plane, size_t first, size_t count, const float *values)
+{
+    status rc = STATUS_OK;
+    const char *from = (const char *)values;
+    size_t left = count * sizeof *values;
+    off_t at = (off_t)((plane * img->columns * img->rows + first) * sizeof *values);
+
+    while (left > 0) {
+        const ssize_t done = pwrite(img->file, from, left, at);
+        if (done < 0 && errno == EINTR) continue;
+        NEED(done > 0, STATUS_FILE, "%s.img: writing failed: %s", img->stem, strerror(errno));
+        from += done;
+        at += done;
+        left -= (size_t)done;
+    }
+out:
+    return rc;
 }
 
 void image_unload(image *img)
@@ -338,6 +359,7 @@ void image_free(image *img)
 {
     if (!img) return;
     if (img->value) munmap(img->value, img->bytes);
+    if (img->file >= 0) close(img->file);
     for (size_t p = 0; p < img->plane_count; p++) {
         free((char *)img->plane[p].name);
         free((char *)img->plane[p].unit);

@@ -53,6 +53,10 @@ status image_create(image **out, output_folder *folder, const char *stem, uint32
 /* Shape (rows, columns), row 0 on top; 0 until it is written. */
 float *image_values(image *img, size_t plane);
 
+/* Writes some values of a plane, from pixel `first` on. The same as through the map, without its
+ * pages, which cost more time than the writing. Fails with STATUS_FILE, naming the file. */
+status image_write(image *img, size_t plane, size_t first, size_t count, const float *values);
+
 /* Takes the planes out of the process' memory, as often as wanted: the file has what was written,
  * and it is read again where it is looked at. */
 void image_unload(image *img);

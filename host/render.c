@@ -1,5 +1,7 @@
 #include "render.h"
 
+#include "../kernels/band_plane.h"
+
 #include "bodies.h"
 #include "bvh_cache.h"
 #include "clock.h"
@@ -21,13 +23,15 @@ struct render {
     size_t stage_count;
     double stage_start_s;
     sun_memory *suns; /* NULL: the scene has one time */
+    render_tile_memory tile;
 };
 
 void render_prepare(device *dev, const atomic_bool *is_vain)
 {
     static const char *const kernel[] = {
-        "sun_history", "hemisphere",     "band_temperature", "background", "primary",   "sunlight",
-        "mirror",      "background_hit", "sun_times",        "truth",      "radiometry"};
+        "sun_history", "hemisphere",  "band_temperature", "background", "primary",
+        "sunlight",    "mirror",      "background_hit",   "sun_times",  "truth",
+        "radiometry",  "band_planes", "band_emissivity"};
 
     for (size_t i = 0; i < sizeof kernel / sizeof *kernel && !*is_vain; i++)
         device_prepare(dev, kernel[i]);
@@ -214,6 +218,7 @@ status render_move(render *r, const scene *s)
 
     r->stage_count = 0;
     r->stage_start_s = clock_now_s();
+    render_tile_free(&r->tile);
     r->shared.s = s;
     interreflection_free(r->shared.lights);
     incident_free(r->shared.around);
@@ -231,6 +236,7 @@ out:
 void render_free(render *r)
 {
     if (!r) return;
+    render_tile_free(&r->tile);
     free(r->planes);
     interreflection_free(r->shared.lights);
     incident_free(r->shared.around);
@@ -263,11 +269,14 @@ uint32_t render_tile_limit(const render *r)
     return most > 0 ? most : 1;
 }
 
-static bool wants_parts(const render *r, float *const *values)
+/* Bit k: plane k of a band is wanted. */
+static uint32_t band_wants(const render *r, float *const *values)
 {
+    uint32_t bits = 0;
+
     for (size_t i = 0; i < r->plane_count; i++)
-        if (r->planes[i].is_part && values[i]) return true;
-    return false;
+        if (r->planes[i].is_of_band && values[i]) bits |= 1u << r->planes[i].source % BAND_PLANES;
+    return bits;
 }
 
 /* Bit k: truth plane k is categorical. */
@@ -281,26 +290,19 @@ static uint32_t categorical_planes(const render *r)
     return bits;
 }
 
-status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float *const *values)
+status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float *const *values,
+                   const render_store *store)
 {
     status rc = STATUS_OK;
     const uint32_t samples = render_tile_samples(&r->shared);
-    const bool parts = wants_parts(r, values);
-    render_tile_memory t;
 
-    TRY(render_tile_open(&t, &r->shared, first_pixel * samples, pixel_count * samples));
-    TRY(render_tile_compute(&t, &r->shared, parts));
-    if (samples > 1) TRY(render_tile_average(&t, &r->shared, categorical_planes(r), parts));
-    for (size_t i = 0; i < r->plane_count; i++) {
-        const render_plane *p = &r->planes[i];
-        const device_memory from = p->is_of_band ? t.band_planes : t.truth_planes;
-        const size_t bytes = (size_t)pixel_count * sizeof(float);
-        if (!values[i]) continue;
-        TRY(device_download(r->shared.dev, from, p->source * bytes, bytes,
-                            values[i] + first_pixel));
-    }
+    TRY(render_tile_open(&r->tile, &r->shared, first_pixel * samples, pixel_count * samples,
+                         band_wants(r, values)));
+    TRY(render_tile_compute(&r->tile, &r->shared));
+    if (samples > 1) TRY(render_tile_average(&r->tile, &r->shared, categorical_planes(r)));
+    TRY(render_tile_store(&r->tile, &r->shared, r->planes, r->plane_count, values, store));
 out:
-    render_tile_free(&t);
+    if (rc != STATUS_OK) render_tile_free(&r->tile);
     return rc;
 }
 
@@ -309,18 +311,16 @@ const spectra *render_spectra(const render *r)
     return r->shared.tables.bands;
 }
 
-/* The spectra of one sample.
- *   out   shape (count) */
+/* The spectra of a group of pixels of which one sample is the first.
+ *   out   shape (count, PIXEL_GROUP) */
 static status sample_terms(const render *r, uint32_t sample, size_t count, float *out)
 {
     status rc = STATUS_OK;
-    device *dev = r->shared.dev;
-    render_tile_memory t;
+    render_tile_memory t = {0};
 
-    TRY(render_tile_open(&t, &r->shared, sample, 1));
-    TRY(device_allocate(dev, &t.terms, count * sizeof *out, NULL));
-    TRY(render_tile_compute(&t, &r->shared, true));
-    TRY(device_download(dev, t.terms, 0, count * sizeof *out, out));
+    TRY(render_tile_open(&t, &r->shared, sample, 1, BAND_PLANE_PARTS));
+    TRY(render_tile_compute(&t, &r->shared));
+    TRY(device_download(r->shared.dev, t.terms, 0, count * PIXEL_GROUP * sizeof *out, out));
 out:
     render_tile_free(&t);
     return rc;
@@ -331,13 +331,13 @@ status render_pixel_terms(render *r, uint32_t pixel, double *out)
     status rc = STATUS_OK;
     const uint32_t samples = render_tile_samples(&r->shared);
     const size_t count = (size_t)SENSOR_TERMS * r->shared.frame.sample_count;
-    float *one = malloc(count * sizeof *one);
+    float *one = malloc(count * PIXEL_GROUP * sizeof *one);
 
     NEED(one, STATUS_MEMORY, "no memory for the spectra of a pixel");
     for (size_t i = 0; i < count; i++) out[i] = 0.0;
     for (uint32_t k = 0; k < samples; k++) {
         TRY(sample_terms(r, pixel * samples + k, count, one));
-        for (size_t i = 0; i < count; i++) out[i] += (double)one[i] / samples;
+        for (size_t i = 0; i < count; i++) out[i] += (double)one[i * PIXEL_GROUP] / samples;
     }
 out:
     free(one);

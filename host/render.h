@@ -3,7 +3,7 @@
  *
  *   render_open(&r, scene, device);
  *   render_change_look(r, &look);  where it differs from what the scene says
- *   while (more) render_tile(r, first, count, values);
+ *   while (more) render_tile(r, first, count, values, NULL);
  *   render_free(r); */
 #ifndef RENDER_H
 #define RENDER_H
@@ -41,8 +41,10 @@ uint32_t render_tile_limit(const render *r);
 /* Computes pixels first_pixel .. first_pixel + pixel_count - 1, counted along the rows. The values
  * do not depend on how the image is cut into tiles.
  *   values   shape (plane count): the whole plane, shape (rows, columns), or NULL: not wanted
+ *   store    what writes the values where they belong; NULL: they are copied
  * Fails with STATUS_MEMORY where the device has no room for the tile: try a smaller one. */
-status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float *const *values);
+status render_tile(render *r, uint32_t first_pixel, uint32_t pixel_count, float *const *values,
+                   const render_store *store);
 
 /* How to look at the scene, where that differs from what the scene says. */
 typedef struct render_look {

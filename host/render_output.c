@@ -163,19 +163,29 @@ static void show_progress(void *listener, uint32_t done)
     const writing *w = listener;
     const uint32_t all = (uint32_t)w->s->camera.columns * (uint32_t)w->s->camera.rows;
 
-    image_unload(w->cube);
-    if (w->truth) image_unload(w->truth);
     if (w->options->percent) *w->options->percent = (sig_atomic_t)(100 * (uint64_t)done / all);
     if (!w->options->shows_progress) return;
     fprintf(stderr, "\r%s: %3.0f %% of %u pixels%s", w->s->name, floor(100.0 * done / all), all,
             done == all ? "\n" : "");
 }
 
+static status write_values(void *self, size_t plane, uint32_t first, uint32_t count,
+                           const float *values)
+{
+    const writing *w = self;
+    image *to = w->planes[plane].is_radiance ? w->cube : w->truth;
+    const size_t pixels = (size_t)w->s->camera.columns * (size_t)w->s->camera.rows;
+    const size_t place = (size_t)(w->values[plane] - image_values(to, 0)) / pixels;
+
+    return image_write(to, place, first, count, values);
+}
+
 static status render_pixels(writing *w)
 {
     status rc = STATUS_OK;
+    const render_store store = {write_values, w};
 
-    TRY(render_pool_run(w->pool, w->values, show_progress, w, w->options->stop));
+    TRY(render_pool_run(w->pool, w->values, &store, show_progress, w, w->options->stop));
     w->planes = render_planes(render_pool_render(w->pool), &w->plane_count);
 out:
     return rc;

@@ -29,7 +29,7 @@ static const plane_kind truth_kinds[TRUTH_PLANES + SUN_PLANES] = {
 
 static const char radiance_unit[] = "W m-2 sr-1";
 
-/* As radiometry.cl writes them. */
+/* As band_planes.cl writes them. */
 static const plane_kind band_kinds[BAND_PLANES] = {
     {"radiance_%s", radiance_unit, false},
     {"counts_%s", "counts", false},

@@ -16,6 +16,12 @@ typedef struct render_plane {
     uint32_t source; /* of a band: band x BAND_PLANES + plane; else which of the others */
 } render_plane;
 
+/* Takes some values of a plane, from pixel `first` on. */
+typedef struct render_store {
+    status (*write)(void *self, size_t plane, uint32_t first, uint32_t count, const float *values);
+    void *self;
+} render_store;
+
 /* Lists all planes of a scene: the radiances, the planes that do not depend on the band, and those
  * that do.
  *   centre_um, width_um   of the bands

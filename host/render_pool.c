@@ -21,6 +21,7 @@ struct render_pool {
     size_t count; /* of what has not failed */
     uint32_t pixel_count;
     float *const *values;
+    const render_store *store;
 };
 
 /* Takes out a member. */
@@ -102,10 +103,10 @@ static status compute(void *self, uint32_t first, uint32_t count)
 {
     member *m = self;
 
-    return render_tile(m->r, first, count, m->pool->values);
+    return render_tile(m->r, first, count, m->pool->values, m->pool->store);
 }
 
-status render_pool_run(render_pool *pool, float *const *values,
+status render_pool_run(render_pool *pool, float *const *values, const render_store *store,
                        void (*on_progress)(void *listener, uint32_t done), void *listener,
                        const volatile sig_atomic_t *stop)
 {
@@ -120,6 +121,7 @@ status render_pool_run(render_pool *pool, float *const *values,
 
     pool->pixel_count = job.pixel_count;
     pool->values = values;
+    pool->store = store;
     for (size_t i = 0; i < pool->count; i++) pool->failed[i] = false;
     for (size_t i = 0; i < pool->count; i++)
         pool->workers[i] = (tile_worker){.self = &pool->members[i],

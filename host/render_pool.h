@@ -19,7 +19,7 @@ status render_pool_move(render_pool *pool, const scene *s);
 
 /* Computes all pixels as render_tile does: tiles go to whichever device is free, those of one that
  * fails to the others. Once for each time. Listener and stop: tile_queue.h. */
-status render_pool_run(render_pool *pool, float *const *values,
+status render_pool_run(render_pool *pool, float *const *values, const render_store *store,
                        void (*on_progress)(void *listener, uint32_t done), void *listener,
                        const volatile sig_atomic_t *stop);
 

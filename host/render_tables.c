@@ -5,6 +5,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Work-items of band_temperature.cl for one band. */
+enum { TEMPERATURE_GROUPS = BAND_TEMPERATURES / 16 };
+
 status render_tables_take_facets(render_tables *t, device *dev, const scene *s)
 {
     status rc = STATUS_OK;
@@ -98,6 +101,25 @@ out:
     return rc;
 }
 
+/* What planes of bands are looked up in. */
+static status tabulate_bands(render_tables *t, device *dev, const scene *s)
+{
+    status rc = STATUS_OK;
+    const uint32_t samples = t->bands->sample_count, rows = scene_emissivity_rows(s);
+    const size_t bands = s->band_count;
+    const device_shape temperatures = {{TEMPERATURE_GROUPS, bands}, 4};
+
+    TRY(device_allocate(dev, &t->ln_radiance, bands * BAND_TEMPERATURES * sizeof(float), NULL));
+    TRY(device_allocate(dev, &t->band_emissivity, bands * rows * sizeof(float), NULL));
+    TRY(device_run(dev, "band_temperature", temperatures, ARG(samples), ARG(t->spectrum_rows),
+                   ARG(t->band_records), ARG(t->band_weights), ARG(t->ln_radiance)));
+    TRY(device_run(dev, "band_emissivity", shape2(bands, rows), ARG(samples), ARG(s->band_count),
+                   ARG(t->band_records), ARG(t->band_weights), ARG(t->emissivity_rows),
+                   ARG(t->band_emissivity)));
+out:
+    return rc;
+}
+
 status render_tables_take_spectra(render_tables *t, device *dev, const scene *s,
                                   const bodies *through)
 {
@@ -112,19 +134,12 @@ status render_tables_take_spectra(render_tables *t, device *dev, const scene *s,
                         t->bands->bands));
     TRY(device_allocate(dev, &t->band_weights, t->bands->weight_count * sizeof(float),
                         t->bands->weight_um));
-    TRY(device_allocate(dev, &t->bands_between,
-                        t->bands->sample_count / SPECTRA_BLOCK * 2 * sizeof(uint32_t),
-                        t->bands->bands_between));
-    TRY(device_allocate(dev, &t->ln_radiance,
-                        (size_t)s->band_count * BAND_TEMPERATURES * sizeof(float), NULL));
     TRY(sample_emissivity(&emissivity_rows, s, t->bands));
     TRY(upload_emissivity(&t->emissivity_rows, dev, s, emissivity_rows, t->bands));
     if (through)
         TRY(bodies_sample(through, t->bands->wavenumber_cm1, t->bands->sample_count,
                           &t->extinction_rows));
-    TRY(device_run(dev, "band_temperature", shape2(BAND_TEMPERATURES, s->band_count),
-                   ARG(t->bands->sample_count), ARG(t->spectrum_rows), ARG(t->band_records),
-                   ARG(t->band_weights), ARG(t->ln_radiance)));
+    TRY(tabulate_bands(t, dev, s));
 out:
     free(emissivity_rows);
     return rc;
@@ -136,7 +151,7 @@ void render_tables_free(render_tables *t)
     device_release(t->blocks.emissivity);
     device_release(t->blocks.rows);
     device_release(t->ln_radiance);
-    device_release(t->bands_between);
+    device_release(t->band_emissivity);
     device_release(t->band_weights);
     device_release(t->band_records);
     device_release(t->extinction_rows);

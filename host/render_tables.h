@@ -15,7 +15,7 @@ typedef struct render_tables {
     device_memory facets, facet_ids, materials;
     spectra *bands;
     device_memory spectrum_rows, emissivity_rows, extinction_rows, band_records, band_weights,
-        bands_between, ln_radiance;
+        band_emissivity, ln_radiance;
     /* Exact mode: the same over blocks of samples, as interreflection.h takes them. */
     interreflection_spectra blocks;
     float *reflectance; /* shape (facet_count): the most at any wavelength */

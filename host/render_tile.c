@@ -1,10 +1,17 @@
 #include "render_tile.h"
 
+#include "../kernels/band_plane.h"
 #include "../kernels/lobe.h"
 
 #include "sunlight.h"
 
+#include <string.h>
+
 enum { TILE_BYTES = 1 << 27, TILE_LEAST = 1 << 10, TILE_MOST = 1 << 16 };
+
+/* Spectra are integrated while they are in a cache. Groups of pixels of a work-group, and the least
+ * that are launched at once. */
+enum { TERM_BYTES = 1 << 23, GROUPS_TOGETHER = 4, GROUPS_LEAST = 16 };
 
 /* What bodies add to a pixel: its ways, and the shares of its history. */
 static uint32_t body_words(const render_shared *r)
@@ -33,13 +40,66 @@ static bool has_incident(const render_shared *r)
     return r->around && !r->is_coarse;
 }
 
-status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t first,
-                        uint32_t count)
+/* What the planes that are averaged over samples are made from. */
+static uint32_t wants_of_samples(const render_shared *r, uint32_t wants)
+{
+    return render_tile_samples(r) > 1 ? wants & ~(1u << BAND_APPARENT | 1u << BAND_STDERR) : wants;
+}
+
+static status allocate_bands(render_tile_memory *t, const render_shared *r)
 {
     status rc = STATUS_OK;
-    const size_t n = count;
+    const uint32_t wants = wants_of_samples(r, t->wants);
+    const size_t row = band_plane_row(t->room);
+    const size_t group_bytes =
+        (size_t)band_plane_terms(wants) * r->frame.sample_count * PIXEL_GROUP * sizeof(float);
+    size_t groups = TERM_BYTES / group_bytes / GROUPS_TOGETHER * GROUPS_TOGETHER;
 
-    *t = (render_tile_memory){.first = first, .count = count, .points = {.count = count}};
+    if (groups < GROUPS_LEAST) groups = GROUPS_LEAST;
+    if (groups > row / PIXEL_GROUP) groups = row / PIXEL_GROUP;
+    t->groups_at_once = (uint32_t)groups;
+    TRY(device_allocate(r->dev, &t->terms, groups * group_bytes, NULL));
+    TRY(device_allocate(r->dev, &t->emissivities, row * 2 * sizeof(emissivity_record), NULL));
+    TRY(device_allocate(r->dev, &t->band_planes,
+                        r->s->band_count * band_plane_count(wants) * row * sizeof(float), NULL));
+out:
+    return rc;
+}
+
+static status allocate_bodies(render_tile_memory *t, const render_shared *r)
+{
+    status rc = STATUS_OK;
+    const size_t n = t->room;
+
+    TRY(device_allocate(r->dev, &t->body_paths, n * TRANSMISSION_PATHS * sizeof(transmission_path),
+                        NULL));
+    TRY(device_allocate(r->dev, &t->direct, n * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &t->background_direct, n * sizeof(float), NULL));
+out:
+    return rc;
+}
+
+/* What the planes of pixels need beside those of their samples. */
+static status allocate_means(render_tile_memory *t, const render_shared *r)
+{
+    status rc = STATUS_OK;
+    const size_t pixels = t->room / t->samples;
+
+    TRY(device_allocate(r->dev, &t->mean_truth_planes,
+                        pixels * (TRUTH_PLANES + SUN_PLANES) * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &t->mean_band_planes,
+                        (size_t)band_plane_row((uint32_t)pixels) * r->s->band_count *
+                            band_plane_count(t->wants) * sizeof(float),
+                        NULL));
+out:
+    return rc;
+}
+
+static status allocate(render_tile_memory *t, const render_shared *r)
+{
+    status rc = STATUS_OK;
+    const size_t n = t->room;
+
     TRY(device_allocate(r->dev, &t->points.hit, n * sizeof(hit_record), NULL));
     TRY(device_allocate(r->dev, &t->points.met,
                         n * shape_factor_cell_count(r->grid) * sizeof(uint32_t), NULL));
@@ -55,23 +115,41 @@ status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t 
                             NULL));
     if (has_incident(r) && scene_is_rough(r->s))
         TRY(device_allocate(r->dev, &t->gloss, n * LOBE_RAYS * sizeof(uint32_t), NULL));
-    if (r->bodies) {
-        TRY(device_allocate(r->dev, &t->body_paths,
-                            n * TRANSMISSION_PATHS * sizeof(transmission_path), NULL));
-        TRY(device_allocate(r->dev, &t->direct, n * sizeof(float), NULL));
-        TRY(device_allocate(r->dev, &t->background_direct, n * sizeof(float), NULL));
-    }
+    if (r->bodies) TRY(allocate_bodies(t, r));
     TRY(device_allocate(r->dev, &t->truth_planes, n * (TRUTH_PLANES + SUN_PLANES) * sizeof(float),
                         NULL));
-    TRY(device_allocate(r->dev, &t->band_planes, n * r->s->band_count * BAND_PLANES * sizeof(float),
-                        NULL));
+    TRY(allocate_bands(t, r));
+    if (t->samples > 1) TRY(allocate_means(t, r));
 out:
+    return rc;
+}
+
+status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t first,
+                        uint32_t count, uint32_t wants)
+{
+    status rc = STATUS_OK;
+    const uint32_t planes = wants | 1u << BAND_RADIANCE, samples = render_tile_samples(r);
+
+    if (count > t->room || planes != t->wants || samples != t->samples ||
+        r->is_coarse != t->is_coarse) {
+        render_tile_free(t);
+        *t = (render_tile_memory){
+            .room = count, .wants = planes, .samples = samples, .is_coarse = r->is_coarse};
+        TRY(allocate(t, r));
+    }
+    t->first = first;
+    t->count = t->points.count = count;
+out:
+    if (rc != STATUS_OK) render_tile_free(t);
     return rc;
 }
 
 void render_tile_free(render_tile_memory *t)
 {
+    device_release(t->mean_band_planes);
+    device_release(t->mean_truth_planes);
     device_release(t->terms);
+    device_release(t->emissivities);
     device_release(t->band_planes);
     device_release(t->truth_planes);
     device_release(t->background_direct);
@@ -87,6 +165,7 @@ void render_tile_free(render_tile_memory *t)
     device_release(t->lit);
     device_release(t->points.met);
     device_release(t->points.hit);
+    *t = (render_tile_memory){0};
 }
 
 /* What the pixels see, what lights them, and what stands around them. */
@@ -149,14 +228,41 @@ static status cast_gloss(const render_tile_memory *t, const render_shared *r,
                       ARG(r->tables.materials), ARG(t->points.hit), ARG(t->gloss));
 }
 
-static status colour(const render_tile_memory *t, const render_shared *r, bool wants_parts)
+/* Spectra, and the planes of the bands from them. */
+static status integrate(const render_tile_memory *t, const render_shared *r,
+                        radiometry_record frame)
+{
+    status rc = STATUS_OK;
+    const uint32_t groups = band_plane_row(t->count) / PIXEL_GROUP;
+
+    for (frame.first_group = 0; frame.first_group < groups;
+         frame.first_group += t->groups_at_once) {
+        const uint32_t left = groups - frame.first_group;
+        const uint32_t some = left < t->groups_at_once ? left : t->groups_at_once;
+        const device_shape shape = {{some, 1}, GROUPS_TOGETHER};
+        TRY(device_run(r->dev, "radiometry", shape, ARG(frame), ARG(r->air), ARG(r->camera),
+                       ARG(r->tables.facets), ARG(r->tables.materials), ARG(t->temperature_k),
+                       ARG(t->points.hit), ARG(t->background), ARG(t->lit), ARG(t->background_lit),
+                       ARG(r->tables.spectrum_rows), ARG(r->tables.emissivity_rows),
+                       ARG(t->incident), ARG(r->tables.extinction_rows), ARG(t->body_paths),
+                       ARG(t->emissivities), ARG(t->terms)));
+        TRY(device_run(r->dev, "band_planes", shape, ARG(frame), ARG(r->tables.band_records),
+                       ARG(r->tables.band_weights), ARG(r->tables.band_emissivity),
+                       ARG(r->tables.ln_radiance), ARG(t->emissivities), ARG(t->terms),
+                       ARG(t->band_planes)));
+    }
+out:
+    return rc;
+}
+
+static status colour(const render_tile_memory *t, const render_shared *r)
 {
     status rc = STATUS_OK;
     radiometry_record frame = r->frame;
 
     frame.first_pixel = t->first;
     frame.pixel_count = t->count;
-    frame.wants_parts = wants_parts;
+    frame.wants = wants_of_samples(r, t->wants);
     if (r->bodies) TRY(cross_bodies(t, r, &frame));
     const device_memory direct = r->bodies ? t->direct : t->lit;
     const device_memory behind = r->bodies ? t->background_direct : t->background_lit;
@@ -184,18 +290,12 @@ static status colour(const render_tile_memory *t, const render_shared *r, bool w
         };
         TRY(incident_run(r->around, &pixels, t->incident));
     }
-    TRY(device_run(r->dev, "radiometry", shape1(t->count), ARG(frame), ARG(r->air), ARG(r->camera),
-                   ARG(r->tables.facets), ARG(r->tables.materials), ARG(t->temperature_k),
-                   ARG(t->points.hit), ARG(t->background), ARG(t->lit), ARG(t->background_lit),
-                   ARG(r->tables.spectrum_rows), ARG(r->tables.emissivity_rows), ARG(t->incident),
-                   ARG(r->tables.extinction_rows), ARG(t->body_paths), ARG(r->tables.band_records),
-                   ARG(r->tables.band_weights), ARG(r->tables.bands_between),
-                   ARG(r->tables.ln_radiance), ARG(t->terms), ARG(t->band_planes)));
+    TRY(integrate(t, r, frame));
 out:
     return rc;
 }
 
-status render_tile_compute(const render_tile_memory *t, const render_shared *r, bool wants_parts)
+status render_tile_compute(const render_tile_memory *t, const render_shared *r)
 {
     status rc = STATUS_OK;
 
@@ -206,40 +306,77 @@ status render_tile_compute(const render_tile_memory *t, const render_shared *r, 
     else
         TRY(temperature_of_pixels(r->warmth, r->rays, t->count, t->points.hit, TRUTH_PLANES,
                                   t->history, t->temperature_k, t->truth_planes));
-    TRY(colour(t, r, wants_parts));
+    TRY(colour(t, r));
 out:
     return rc;
 }
 
-static void swap(device_memory *one, device_memory *other)
-{
-    const device_memory kept = *one;
-
-    *one = *other;
-    *other = kept;
-}
-
-status render_tile_average(render_tile_memory *t, const render_shared *r, uint32_t categorical,
-                           bool wants_parts)
+status render_tile_average(const render_tile_memory *t, const render_shared *r,
+                           uint32_t categorical)
 {
     status rc = STATUS_OK;
-    const uint32_t per_pixel = render_tile_samples(r), pixels = t->count / per_pixel;
-    const uint32_t parts = wants_parts;
+    const uint32_t pixels = t->count / t->samples, has = wants_of_samples(r, t->wants);
     const uint32_t truth_count = TRUTH_PLANES + SUN_PLANES, band_count = r->s->band_count;
-    device_memory truth = NULL, bands = NULL;
 
-    TRY(device_allocate(r->dev, &truth, (size_t)pixels * truth_count * sizeof(float), NULL));
-    TRY(device_allocate(r->dev, &bands, (size_t)pixels * band_count * BAND_PLANES * sizeof(float),
-                        NULL));
-    TRY(device_run(r->dev, "truth_mean", shape2(pixels, truth_count), ARG(pixels), ARG(per_pixel),
-                   ARG(categorical), ARG(t->truth_planes), ARG(truth)));
-    TRY(device_run(r->dev, "band_mean", shape2(pixels, band_count), ARG(pixels), ARG(per_pixel),
-                   ARG(parts), ARG(r->tables.band_records), ARG(r->tables.ln_radiance),
-                   ARG(t->band_planes), ARG(bands)));
-    swap(&t->truth_planes, &truth);
-    swap(&t->band_planes, &bands);
+    TRY(device_run(r->dev, "truth_mean", shape2(pixels, truth_count), ARG(pixels), ARG(t->samples),
+                   ARG(categorical), ARG(t->truth_planes), ARG(t->mean_truth_planes)));
+    TRY(device_run(r->dev, "band_mean", shape2(pixels, band_count), ARG(pixels), ARG(t->samples),
+                   ARG(t->wants), ARG(has), ARG(r->tables.band_records), ARG(r->tables.ln_radiance),
+                   ARG(t->band_planes), ARG(t->mean_band_planes)));
 out:
-    device_release(bands);
-    device_release(truth);
+    return rc;
+}
+
+/* What the planes of a tile are, as the host sees them. */
+typedef struct tile_view {
+    uint32_t first, count, wants;
+    const float *truth, *bands;
+} tile_view;
+
+static const float *plane_in(const tile_view *v, const render_plane *p)
+{
+    const uint32_t place = band_plane_place(v->wants, p->source % BAND_PLANES);
+    const size_t before = (size_t)(p->source / BAND_PLANES) * band_plane_count(v->wants);
+
+    return p->is_of_band ? v->bands + (before + place) * band_plane_row(v->count)
+                         : v->truth + (size_t)p->source * v->count;
+}
+
+static status store_planes(const tile_view *v, const render_plane *planes, size_t plane_count,
+                           float *const *values, const render_store *store)
+{
+    status rc = STATUS_OK;
+
+    for (size_t i = 0; i < plane_count; i++) {
+        if (!values[i]) continue;
+        const float *from = plane_in(v, &planes[i]);
+        if (store)
+            TRY(store->write(store->self, i, v->first, v->count, from));
+        else
+            memcpy(values[i] + v->first, from, v->count * sizeof *from);
+    }
+out:
+    return rc;
+}
+
+status render_tile_store(const render_tile_memory *t, const render_shared *r,
+                         const render_plane *planes, size_t plane_count, float *const *values,
+                         const render_store *store)
+{
+    status rc = STATUS_OK;
+    const device_memory truth = t->samples > 1 ? t->mean_truth_planes : t->truth_planes;
+    const device_memory bands = t->samples > 1 ? t->mean_band_planes : t->band_planes;
+    tile_view v = {
+        .first = t->first / t->samples, .count = t->count / t->samples, .wants = t->wants};
+    const size_t truth_length = (size_t)(TRUTH_PLANES + SUN_PLANES) * v.count;
+    const size_t rows = (size_t)r->s->band_count * band_plane_count(t->wants);
+
+    TRY(device_map(r->dev, truth, truth_length * sizeof(float), (const void **)&v.truth));
+    TRY(device_map(r->dev, bands, rows * band_plane_row(v.count) * sizeof(float),
+                   (const void **)&v.bands));
+    TRY(store_planes(&v, planes, plane_count, values, store));
+out:
+    device_unmap(r->dev, bands, v.bands);
+    device_unmap(r->dev, truth, v.truth);
     return rc;
 }

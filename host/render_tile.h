@@ -4,6 +4,7 @@
 
 #include "incident.h"
 #include "ray_scene.h"
+#include "render_plane.h"
 #include "render_tables.h"
 #include "shape_factor.h"
 #include "temperature.h"
@@ -25,16 +26,21 @@ typedef struct render_shared {
     camera_record camera;
 } render_shared;
 
-/* What one tile holds on the device. */
+/* What one tile holds on the device. Starts zeroed; render_tile_free is then safe at any time. */
 typedef struct render_tile_memory {
     uint32_t first, count;
+    uint32_t room, samples; /* that there is memory for; of a pixel */
+    bool is_coarse;
     shape_factor_points points;
     device_memory lit, history, temperature_k, background, background_hit, background_lit;
     device_memory gloss;    /* exact mode with rough materials: see gloss.cl */
     device_memory incident; /* exact mode: spectra, shape (count, 2, samples) */
     device_memory body_paths, direct, background_direct; /* with bodies: see crossing.cl */
+    uint32_t wants;                                      /* planes of the bands, see band_plane.h */
     device_memory truth_planes, band_planes;
-    device_memory terms; /* see radiometry.cl; NULL: not wanted */
+    device_memory mean_truth_planes, mean_band_planes; /* with several samples a pixel */
+    device_memory emissivities, terms;                 /* of groups_at_once: see radiometry.cl */
+    uint32_t groups_at_once;
 } render_tile_memory;
 
 /* The most pixels that a tile should hold: see render_tile_limit. */
@@ -43,20 +49,27 @@ uint32_t render_tile_most(const render_shared *r);
 /* Samples of a pixel; where there are several, what follows counts them, and not pixels. */
 uint32_t render_tile_samples(const render_shared *r);
 
-/* Takes memory for pixels first .. first + count - 1, but for terms. After a failure too,
- * render_tile_free is due. */
+/* Makes ready for pixels first .. first + count - 1; memory that is there already is used again where
+ * it fits, as fresh memory costs as much time as many a kernel.
+ *   wants   planes of the bands, see band_plane.h; the radiance always */
 status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t first,
-                        uint32_t count);
+                        uint32_t count, uint32_t wants);
+/* Releases the memory; due before what the tiles share changes, but for its look. */
 void render_tile_free(render_tile_memory *t);
 
 /* Computes the planes of the tile: truth_planes, shape (TRUTH_PLANES + SUN_PLANES, count), and
- * band_planes, shape (band_count, BAND_PLANES, count).
- *   wants_parts   the parts of the radiance too */
-status render_tile_compute(const render_tile_memory *t, const render_shared *r, bool wants_parts);
+ * band_planes, see band_plane.h. */
+status render_tile_compute(const render_tile_memory *t, const render_shared *r);
 
-/* Puts planes of pixels in the place of those of their samples; the tile holds whole pixels.
+/* Computes the planes of pixels from those of their samples; the tile holds whole pixels.
  *   categorical   bit k: truth plane k holds numbers of things */
-status render_tile_average(render_tile_memory *t, const render_shared *r, uint32_t categorical,
-                           bool wants_parts);
+status render_tile_average(const render_tile_memory *t, const render_shared *r,
+                           uint32_t categorical);
+
+/* Takes the wanted planes of the tile's pixels to where they belong.
+ *   planes, values   shape (plane_count); values and store: as render_tile has them */
+status render_tile_store(const render_tile_memory *t, const render_shared *r,
+                         const render_plane *planes, size_t plane_count, float *const *values,
+                         const render_store *store);
 
 #endif

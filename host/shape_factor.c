@@ -193,7 +193,8 @@ status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
     const device_memory nodes = ray_scene_nodes(scene), blocks = ray_scene_blocks(scene);
 
     TRY(shape_factor_trace(grid, scene, sun, points));
-    TRY(device_run(ray_scene_device(scene), "background", shape1(points->count), ARG(points->count),
+    TRY(device_run(ray_scene_device(scene), "background",
+                   device_ray_shape(ray_scene_device(scene), points->count, 1), ARG(points->count),
                    ARG(grid->cell_count), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
                    ARG(tables->facet), ARG(tables->temperature_k), ARG(tables->material),
                    ARG(points->hit), ARG(points->met), ARG(out_background)));

@@ -38,12 +38,11 @@ static status allocate(spectra *s, uint32_t band_count, const atmosphere *air)
     s->band_count = band_count;
     s->row_count =
         air_first_row(air) + 2u * (altitudes_of(air) * (uint32_t)air->path_count + ranges_of(air));
-    s->bands_between = calloc(sample_count / SPECTRA_BLOCK * 2, sizeof(uint32_t));
     s->bands = calloc(band_count, sizeof *s->bands);
     s->centre_um = calloc(band_count, sizeof(double));
     s->width_um = calloc(band_count, sizeof(double));
     s->rows = calloc((size_t)s->row_count * sample_count, sizeof(float));
-    NEED(s->bands_between && s->bands && s->centre_um && s->width_um && s->rows, STATUS_MEMORY,
+    NEED(s->bands && s->centre_um && s->width_um && s->rows, STATUS_MEMORY,
          "no memory for the spectra of %u bands", band_count);
 out:
     return rc;
@@ -183,12 +182,12 @@ static uint32_t find_sample(const spectra *s, double wavenumber_cm1)
     return low;
 }
 
-/* Finds the blocks that a band is in. */
+/* Finds the samples that a band is in. */
 static void place_band(spectra *s, uint32_t index, const band *b, const band_samples *samples)
 {
     const double *nu = samples->wavenumber_cm1;
-    const uint32_t first = find_sample(s, nu[0]) / SPECTRA_BLOCK * SPECTRA_BLOCK;
-    const uint32_t count = padded(find_sample(s, nu[samples->count - 1]) + 1) - first;
+    const uint32_t first = find_sample(s, nu[0]);
+    const uint32_t count = find_sample(s, nu[samples->count - 1]) + 1 - first;
 
     s->bands[index] = (band_record){.first_sample = first,
                                     .sample_count = count,
@@ -200,11 +199,6 @@ static void place_band(spectra *s, uint32_t index, const band *b, const band_sam
     s->weight_count += count;
     s->centre_um[index] = samples->centre_um;
     s->width_um[index] = samples->width_um;
-    for (uint32_t k = first / SPECTRA_BLOCK; k < (first + count) / SPECTRA_BLOCK; k++) {
-        uint32_t *between = s->bands_between + (size_t)2 * k;
-        if (between[1] == 0) between[0] = index;
-        between[1] = index + 1;
-    }
 }
 
 static status place_weights(spectra *s, const band_samples *samples)
@@ -320,7 +314,6 @@ void spectra_free(spectra *s)
     free(s->centre_um);
     free(s->width_um);
     free(s->weight_um);
-    free(s->bands_between);
     free(s->rows);
     free(s);
 }

@@ -18,7 +18,6 @@ typedef struct spectra {
     double *centre_um, *width_um; /* shape (band_count) */
     float *weight_um;             /* shape (weight_count): the bands', one behind the other */
     uint32_t weight_count;
-    uint32_t *bands_between; /* shape (blocks, 2): first and one past the last that it is in */
     uint32_t row_count;
     float *rows; /* shape (row_count, sample_count) */
 } spectra;

@@ -145,8 +145,8 @@ static inline air_terms air_at_range(global const float *rows, radiometry_record
 }
 
 /* The terms of the air between the ray's origin and `range_m` on it. */
-static inline air_terms air_upto(global const float *rows, radiometry_record frame,
-                                 const air_record *air, air_way way, float range_m, uint block)
+INLINE air_terms air_upto(global const float *rows, radiometry_record frame, const air_record *air,
+                          air_way way, float range_m, uint block)
 {
     if (way.kind == AIR_BY_RANGE)
         return air_at_range(rows, frame, air,

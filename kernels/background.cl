@@ -1,5 +1,33 @@
 #include "hemisphere.h"
 
+#define LANES_WIDTH RAY_LANES
+#include "hemisphere_lanes.h"
+
+/* Counts what the rays of points first .. first + LANES_WIDTH - 1 met.
+ *   used      a bit per lane that is a point
+ * Returns the shares that met nothing. */
+static inline lanes count_rays(const uint cell_count, global const float *cell,
+                               global const facet_record *facet, global const float *temperature_k,
+                               global const uint *met, const uint first, const uint count,
+                               const uint used, hemisphere_count all[LANES_WIDTH])
+{
+    lanes open[2] = {(lanes)0.0f, (lanes)0.0f}, blocked[2] = {(lanes)0.0f, (lanes)0.0f};
+
+    for (uint i = 0; i < LANES_WIDTH; i++) hemisphere_count_clear(&all[i]);
+    for (uint c = 0; c < cell_count; c++) {
+        const lanes_bits word = lanes_load_bits(met + (size_t)c * count, first, count);
+        const lanes_mask is_open = word == RECORD_NONE, is_met = word != RECORD_NONE;
+        hemisphere_lanes_add(open, is_open, cell[4 * c + 3]);
+        hemisphere_lanes_add(blocked, is_met, cell[4 * c + 3]);
+        for (uint left = lanes_bits_of(is_met) & used; left; left &= left - 1) {
+            const uint i = 31 - clz(left & -left);
+            const uint seen = ((const uint *)&word)[i] & ~HEMISPHERE_LIT;
+            hemisphere_count_met(&all[i], c, facet[seen].material, temperature_k[seen]);
+        }
+    }
+    return open[0] / (open[0] + blocked[0]);
+}
+
 /* The entry of the commonest material; of equally common ones that of the lowest number. */
 static inline uint commonest(const hemisphere_count *c, global const material_record *material)
 {
@@ -14,9 +42,9 @@ static inline uint commonest(const hemisphere_count *c, global const material_re
 }
 
 /* Sums up what the rays of the hemisphere met: eq. 2.4.2-6 and the background of 2.4.2.
- * Launch: (count). cell: (cell_count, 4); facet, temperature_k: per facet, the ground's too;
- * material: per material; hit: (count); met: (cell_count, count) as hemisphere.cl writes it;
- * out: (count). */
+ * Launch: (count / RAY_LANES, rounded up). cell: (cell_count, 4); facet, temperature_k: per facet,
+ * the ground's too; material: per material; hit: (count); met: (cell_count, count) as hemisphere.cl
+ * writes it; out: (count). */
 kernel void background(const uint count, const uint cell_count, const world_record world,
                        global const bvh_node *nodes, global const bvh_block *blocks,
                        global const float *cell, global const facet_record *facet,
@@ -24,33 +52,40 @@ kernel void background(const uint count, const uint cell_count, const world_reco
                        global const hit_record *hit, global const uint *met,
                        global background_record *out)
 {
-    const uint i = get_global_id(0);
-    if (i >= count) return;
-    const hit_record at = hit[i];
-    background_record back = {.shape_factor = 1.0f, .material = RECORD_NONE, .facet = RECORD_NONE};
-    hemisphere_count all;
+    const uint first = get_global_id(0) * LANES_WIDTH;
+    if (first >= count) return;
+    const uint lane_count = min((uint)LANES_WIDTH, count - first), used = (1u << lane_count) - 1u;
+    hemisphere_count all[LANES_WIDTH];
+    ray_packet packet;
+    ray_packet_hit closest;
 
-    hemisphere_count_clear(&all);
-    for (uint c = 0; at.facet != RECORD_NONE && c < cell_count; c++) {
-        const uint word = met[(size_t)c * count + i], seen = word & ~HEMISPHERE_LIT;
-        if (word == RECORD_NONE)
-            hemisphere_add(all.open, cell[4 * c + 3]);
-        else
-            hemisphere_count_met(&all, c, cell[4 * c + 3], facet[seen].material,
-                                 temperature_k[seen]);
+    const lanes open =
+        count_rays(cell_count, cell, facet, temperature_k, met, first, count, used, all);
+    ray_packet_clear(&packet, &world);
+    for (uint i = 0; i < lane_count; i++) {
+        background_record back = {
+            .shape_factor = 1.0f, .material = RECORD_NONE, .facet = RECORD_NONE};
+        if (all[i].met_count > 0) {
+            const uint best = commonest(&all[i], material);
+            const hit_record at = hit[first + i];
+            const ray r = hemisphere_ray(&at, cell, all[i].first[best], &world);
+            back.shape_factor = ((const float *)&open)[i];
+            back.mean_temperature_k = all[i].base_k + all[i].excess_k / (float)all[i].met_count;
+            back.material = all[i].material[best];
+            back.met_count = all[i].met_count;
+            ray_packet_set(&packet, i, &r);
+        }
+        out[first + i] = back;
     }
-    if (all.met_count > 0) {
-        const uint best = commonest(&all, material);
-        const ray r = hemisphere_ray(&at, cell, all.first[best], &world);
+    if (!packet.alive) return;
+    ray_packet_closest(nodes, blocks, &packet, &closest);
+    for (uint i = 0; i < lane_count; i++) {
+        if (!(packet.alive >> i & 1)) continue;
+        const ray r = ray_packet_get(&packet, i);
         const hit_record record =
-            hemisphere_record(&r, ray_closest(nodes, blocks, &r), &world, blocks);
-        back.shape_factor = all.open[0] / (all.open[0] + all.blocked[0]);
-        back.mean_temperature_k = all.base_k + all.excess_k / (float)all.met_count;
-        back.material = all.material[best];
-        back.facet = record.facet;
-        back.met_count = all.met_count;
-        vstore3(vload3(0, record.point), 0, back.point);
-        vstore3(vload3(0, record.normal), 0, back.normal);
+            hemisphere_record(&r, ray_packet_hit_of(&closest, i), &world, blocks);
+        out[first + i].facet = record.facet;
+        vstore3(vload3(0, record.point), 0, out[first + i].point);
+        vstore3(vload3(0, record.normal), 0, out[first + i].normal);
     }
-    out[i] = back;
 }

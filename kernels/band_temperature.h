@@ -4,37 +4,47 @@
 #define BAND_TEMPERATURE_H
 
 #include "constants.h"
+#include "lanes.h"
 #include "records.h"
 
 /* Temperature of a row of the table, K. */
-static inline float band_temperature_at(uint index)
+static inline lanes band_temperature_at(lanes index)
 {
     const float ln_step = log(BAND_HIGHEST_K / BAND_LOWEST_K) / (float)(BAND_TEMPERATURES - 1u);
 
-    return BAND_LOWEST_K * exp((float)index * ln_step);
+    return BAND_LOWEST_K * exp(index * ln_step);
 }
 
 #ifdef __OPENCL_C_VERSION__
 
+/* The last row but one that does not exceed a value.
+ *   ln_radiance   shape (BAND_TEMPERATURES) */
+static inline lanes_bits band_temperature_row(global const float *ln_radiance, lanes ln_value)
+{
+    lanes_bits row = 0u;
+
+    for (uint step = BAND_TEMPERATURES / 2u; step > 0u; step /= 2u) {
+        const lanes_bits next = min(row + step, (lanes_bits)(BAND_TEMPERATURES - 2u));
+        row = lanes_gather(ln_radiance, next) <= ln_value ? next : row;
+    }
+    return row;
+}
+
 /* Returns K, or -1 where the radiance is not between those of the table's ends. Linear in 1/T
  * between rows, where ln L nearly is: within .001 K for bands up to 8 to 14 um at 300 K.
  *   ln_radiance   shape (BAND_TEMPERATURES) */
-static inline float band_temperature_find(global const float *ln_radiance, float radiance)
+static inline lanes band_temperature_find(global const float *ln_radiance, lanes radiance)
 {
-    const float target = log(radiance);
-    uint low = 0u, high = BAND_TEMPERATURES - 1u;
+    const lanes target = log(radiance);
+    const lanes_bits row = band_temperature_row(ln_radiance, target);
+    const lanes low = lanes_gather(ln_radiance, row), high = lanes_gather(ln_radiance, row + 1u);
+    const lanes share = (target - low) / (high - low), index = lanes_of_bits(row);
+    const lanes from = 1.0f / band_temperature_at(index);
+    const lanes to = 1.0f / band_temperature_at(index + 1.0f);
+    const lanes_mask is_within =
+        (target >= ln_radiance[0]) & (target <= ln_radiance[BAND_TEMPERATURES - 1u]);
 
-    if (!(target >= ln_radiance[low] && target <= ln_radiance[high])) return -1.0f;
-    while (high - low > 1u) {
-        const uint middle = (low + high) / 2u;
-        if (ln_radiance[middle] <= target)
-            low = middle;
-        else
-            high = middle;
-    }
-    const float share = (target - ln_radiance[low]) / (ln_radiance[high] - ln_radiance[low]);
-    const float from = 1.0f / band_temperature_at(low), to = 1.0f / band_temperature_at(high);
-    return 1.0f / (from + share * (to - from));
+    return is_within ? 1.0f / (from + share * (to - from)) : (lanes)-1.0f;
 }
 
 #endif

@@ -8,8 +8,8 @@
 #pragma OPENCL FP_CONTRACT OFF
 /* Before a loop of few steps: PoCL unrolls none unasked, and what a loop indexes stays in memory. */
 #define UNROLL _Pragma("unroll")
-/* Before a function that gets code of its own for every constant it is called with. Oclgrind cannot
- * run what becomes of such functions. */
+/* Before a function that gets code of its own for every constant it is called with, or does less than
+ * handing over its records. Oclgrind cannot run what becomes of such functions. */
 #ifdef RAY_PORTABLE
 #define INLINE static inline
 #else

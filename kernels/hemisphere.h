@@ -73,35 +73,23 @@ static inline hit_record hemisphere_record(const ray *r, const ray_hit met,
 typedef struct hemisphere_count {
     uint material[HEMISPHERE_MATERIALS], rays[HEMISPHERE_MATERIALS], first[HEMISPHERE_MATERIALS];
     uint material_count, met_count;
-    float open[2], blocked[2]; /* sums of weights, and what their rounding lost */
     float base_k, excess_k; /* first temperature met, and the sum of what the others exceed it by */
 } hemisphere_count;
 
 static inline void hemisphere_count_clear(hemisphere_count *c)
 {
     c->material_count = c->met_count = 0;
-    c->open[0] = c->open[1] = c->blocked[0] = c->blocked[1] = 0;
     c->base_k = c->excess_k = 0;
 }
 
-/* Adds to a sum of many small weights without losing their last digits (Kahan). */
-static inline void hemisphere_add(float sum[2], const float weight)
-{
-    const float term = weight - sum[1], next = sum[0] + term;
-
-    sum[1] = (next - sum[0]) - term;
-    sum[0] = next;
-}
-
 /* Counts ray number `cell`, which met a facet. */
-static inline void hemisphere_count_met(hemisphere_count *c, const uint cell, const float weight,
-                                        const uint material, const float temperature_k)
+static inline void hemisphere_count_met(hemisphere_count *c, const uint cell, const uint material,
+                                        const float temperature_k)
 {
     uint i = 0;
 
     if (c->met_count++ == 0) c->base_k = temperature_k;
     c->excess_k += temperature_k - c->base_k;
-    hemisphere_add(c->blocked, weight);
     while (i < c->material_count && c->material[i] != material) i++;
     if (i == HEMISPHERE_MATERIALS) return;
     if (i == c->material_count) {

@@ -29,6 +29,16 @@ static inline hemisphere_lanes hemisphere_lanes_of(const lanes normal[3])
     return f;
 }
 
+/* Adds to those sums of many small weights that are told, without losing their last digits (Kahan).
+ *   sum   the sums, and what their rounding lost */
+static inline void hemisphere_lanes_add(lanes sum[2], const lanes_mask where, const float weight)
+{
+    const lanes term = weight - sum[1], next = sum[0] + term;
+
+    sum[1] = where ? (next - sum[0]) - term : sum[1];
+    sum[0] = where ? next : sum[0];
+}
+
 /* Turns a direction of the grid (upslope, across, normal) into the world's. */
 static inline void hemisphere_lanes_direction(const hemisphere_lanes *f,
                                               global const float *in_frame, lanes out[3])

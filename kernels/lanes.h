@@ -51,6 +51,15 @@ static inline void lanes_store(lanes from, global float *to, uint first, uint co
         to[first + i] = ((const float *)&from)[i];
 }
 
+/* What stands in a table at each lane's place. */
+static inline lanes lanes_gather(global const float *table, lanes_bits place)
+{
+    lanes out;
+
+    for (uint i = 0; i < LANES_WIDTH; i++) LANES_SET(out, i, table[((const uint *)&place)[i]]);
+    return out;
+}
+
 #if LANES_WIDTH == 16
 
 #define lanes_of_bits(bits) convert_float16(bits)

@@ -1,4 +1,4 @@
-#include "band_temperature.h"
+#include "band_plane.h"
 #include "cloud.h"
 #include "pixel.h"
 #include "radiometry.h"
@@ -10,7 +10,6 @@ typedef struct spectra_tables {
     global const float *incident;   /* of this pixel: shape (2, sample_count); NULL: thesis mode */
     global const float *extinction; /* see cloud.h; NULL: no bodies */
     global const transmission_path *bodies; /* of this pixel: shape (TRANSMISSION_PATHS), strided */
-    global float *terms; /* of this pixel, written: shape (SENSOR_TERMS, sample_count); or NULL */
 } spectra_tables;
 
 static spectrum load_row(spectra_tables tables, radiometry_record frame, uint row, uint block)
@@ -100,31 +99,27 @@ typedef struct from_above {
     spectrum sky, background;
 } from_above;
 
-/* The mean background's radiance; sets its emissivity. */
 static spectrum mean_background(const pixel_state *pixel, spectra_tables tables,
-                                radiometry_record frame, uint block, spectrum *emissivity)
+                                radiometry_record frame, uint block)
 {
     const spectrum first = load_row(tables, frame, SPECTRA_PLANCK_FIRST, block);
     const spectrum second = load_row(tables, frame, SPECTRA_PLANCK_SECOND, block);
     const spectrum sun = load_sun(tables, frame, TRANSMISSION_BACKGROUND_SUN, block);
-
-    *emissivity =
+    const spectrum emissivity =
         lookup_spectrum(tables.emissivity, frame.sample_count, pixel->background_emissivity, block);
     const spectrum radiance = background_radiance(
-        *emissivity, planck_radiance(first, second, pixel->background_temperature_k),
+        emissivity, planck_radiance(first, second, pixel->background_temperature_k),
         sun_on_surface(sun, pixel->background_sunlit, pixel->background_sun_cosine));
+
     if (pixel->interaction == INTERACTION_DIFFUSE) return radiance;
     return see_through(radiance, tables, frame, TRANSMISSION_BACKGROUND, block);
 }
 
 static from_above look_above(const pixel_state *pixel, spectra_tables tables,
-                             radiometry_record frame, uint block, spectrum *background_emissivity)
+                             radiometry_record frame, uint block)
 {
     from_above out = {(spectrum)0.0f, (spectrum)0.0f};
-    spectrum background = (spectrum)0.0f;
 
-    if (pixel->background_temperature_k > 0.0f)
-        background = mean_background(pixel, tables, frame, block, background_emissivity);
     if (tables.incident) {
         out.sky = spectrum_load(tables.incident, block);
         out.background = spectrum_load(tables.incident + frame.sample_count, block);
@@ -135,13 +130,15 @@ static from_above look_above(const pixel_state *pixel, spectra_tables tables,
                   (pixel->interaction == INTERACTION_DIFFUSE
                        ? load_row(tables, frame, SPECTRA_SKY, block)
                        : sky_radiance(sky_rows(tables, frame), frame, pixel->sky, block));
-    out.background = background * (1.0f - pixel->shape_factor);
+    if (pixel->background_temperature_k > 0.0f)
+        out.background =
+            (1.0f - pixel->shape_factor) * mean_background(pixel, tables, frame, block);
     return out;
 }
 
 /* One block of the spectra that bands are integrals of. */
 typedef struct block_terms {
-    spectrum radiance, emissivity, background_emissivity;
+    spectrum radiance;
     spectrum part[RADIANCE_PARTS]; /* as the planes from BAND_PARTS on */
 } block_terms;
 
@@ -156,8 +153,7 @@ static block_terms look_at_target(const pixel_state *pixel, spectra_tables table
     const spectrum sun = load_sun_on_target(pixel, tables, frame, block);
     const spectrum emissivity = lookup_spectrum(tables.emissivity, row, pixel->emissivity, block);
     air_terms terms = air_upto(tables.rows, frame, air, pixel->way, pixel->way.limit_m, block);
-    spectrum behind = (spectrum)0.0f;
-    const from_above above = look_above(pixel, tables, frame, block, &behind);
+    const from_above above = look_above(pixel, tables, frame, block);
 
     if (tables.extinction) put_bodies(pixel, tables, frame, air, block, &terms);
     const spectrum tau2 = terms.transmission, path = terms.radiance;
@@ -165,8 +161,6 @@ static block_terms look_at_target(const pixel_state *pixel, spectra_tables table
     const block_terms out = {
         sensor_radiance(surface_radiance(emissivity, black_body, sun, above.sky + above.background),
                         tau2, path),
-        emissivity,
-        behind,
         {tau2 * emitted_radiance(emissivity, black_body), reflected * sun, reflected * above.sky,
          reflected * above.background, path, tau2}};
     return out;
@@ -181,67 +175,29 @@ static block_terms look_at_sky(const pixel_state *pixel, spectra_tables tables,
                      sky_radiance(sky_rows(tables, frame), frame, pixel->sky, block)};
 
     if (tables.extinction) put_bodies(pixel, tables, frame, air, block, &sky);
-    const block_terms out = {
-        sky.radiance, none, none, {none, none, none, none, sky.radiance, none}};
+    const block_terms out = {sky.radiance, {none, none, none, none, sky.radiance, none}};
     return out;
 }
 
-/* Writes a block where its spectra are wanted. */
-static void store_terms(spectra_tables tables, radiometry_record frame, uint block,
-                        const block_terms *terms)
+static block_terms look(const pixel_state *pixel, spectra_tables tables, radiometry_record frame,
+                        const air_record *air, uint block)
 {
-    const size_t row = frame.sample_count;
-
-    if (!tables.terms) return;
-    for (uint k = 0; k < RADIANCE_PARTS; k++)
-        spectrum_store(terms->part[k], tables.terms + k * row, block);
-    spectrum_store(terms->radiance, tables.terms + RADIANCE_PARTS * row, block);
-}
-
-/* Adds what a block is in a band to a sum over the band, which the first block begins. */
-static void add_to(global float *sum, spectrum terms, spectrum weight, bool is_first)
-{
-    const float own = spectrum_sum(weight * terms);
-
-    *sum = is_first ? own : *sum + own;
-}
-
-/* Adds one block to the planes of one band and pixel. */
-static void add_block(global float *out, radiometry_record frame, const block_terms *terms,
-                      spectrum weight, bool is_first)
-{
-    const size_t plane = frame.pixel_count;
-
-    add_to(out, terms->radiance, weight, is_first);
-    add_to(out + 3u * plane, terms->emissivity, weight, is_first);
-    add_to(out + 4u * plane, terms->background_emissivity, weight, is_first);
-    for (uint k = 0; k < RADIANCE_PARTS && frame.wants_parts; k++)
-        add_to(out + (BAND_PARTS + k) * plane, terms->part[k], weight, is_first);
-}
-
-/* Turns sums over a band into its planes. */
-static void finish_band(global float *out, radiometry_record frame, const pixel_state *pixel,
-                        band_record band, global const float *ln_radiance)
-{
-    const size_t plane = frame.pixel_count;
-    const float radiance = out[0];
-    const float per_um = 1.0f / band.width_um, scale = band.is_mean ? per_um : 1.0f;
-    const float apparent_k = band_temperature_find(ln_radiance, radiance);
-
-    out[0] = radiance * scale;
-    out[plane] = band.gain * radiance + band.offset;
-    out[2u * plane] = apparent_k > 0.0f ? apparent_k - ZERO_CELSIUS_K : NO_VALUE;
     if (pixel->interaction == INTERACTION_MISSED)
-        out[3u * plane] = NO_VALUE;
-    else
-        out[3u * plane] *= per_um;
+        return look_at_sky(pixel, tables, frame, air, block);
+    return look_at_target(pixel, tables, frame, air, block);
+}
+
+/* Where the emissivities of a pixel stand: of the target, and of its background. */
+static void store_emissivities(const pixel_state *pixel, global emissivity_record *out)
+{
+    const emissivity_record none = {RECORD_NONE, RECORD_NONE, 0.0f, 0u};
+    const lookup own = pixel->emissivity, behind = pixel->background_emissivity;
+
+    out[0] = out[1] = none;
+    if (pixel->interaction != INTERACTION_MISSED)
+        out[0] = (emissivity_record){own.low, own.high, own.share, 0u};
     if (pixel->background_temperature_k > 0.0f)
-        out[4u * plane] *= per_um;
-    else
-        out[4u * plane] = NO_VALUE;
-    out[BAND_STDERR * plane] = NO_VALUE;
-    for (uint k = 0; k < RADIANCE_PARTS && frame.wants_parts; k++)
-        out[(BAND_PARTS + k) * plane] *= k == 5u ? per_um : scale;
+        out[1] = (emissivity_record){behind.low, behind.high, behind.share, 0u};
 }
 
 static pixel_state pixel_look(radiometry_record frame, const air_record *air, camera_record camera,
@@ -271,8 +227,43 @@ static pixel_state pixel_look(radiometry_record frame, const air_record *air, ca
     return state;
 }
 
-/* Radiance at the sensor, eq. 2.4-2 and 2.4-3, and what goes with it, per band.
- * Launch: (frame.pixel_count).
+/* Blocks of a pixel that are computed before those of the next one, whose rows lie apart. */
+#define BLOCKS_TOGETHER 8u
+
+/* Some blocks of the spectra of a group. */
+typedef struct group_terms {
+    spectrum of[SENSOR_TERMS][BLOCKS_TOGETHER][PIXEL_GROUP];
+} group_terms;
+
+/* Writes a block of one spectrum, sample by sample.
+ *   of_pixel   shape (PIXEL_GROUP)
+ *   out        shape (sample_count, PIXEL_GROUP) */
+static void store_block(const spectrum *of_pixel, uint block, global float *out)
+{
+#if SPECTRUM_WIDTH == 16
+    spectrum of_sample[SPECTRUM_WIDTH];
+
+    spectrum_turn(of_pixel, of_sample);
+    UNROLL
+    for (uint k = 0; k < SPECTRUM_WIDTH; k++)
+        vstore16(of_sample[k], block * SPECTRUM_WIDTH + k, out);
+#else
+    for (uint i = 0; i < PIXEL_GROUP; i++) out[(size_t)block * PIXEL_GROUP + i] = of_pixel[i];
+#endif
+}
+
+/* Writes `count` blocks, from `first` on.
+ *   out   shape (term_count, sample_count, PIXEL_GROUP) */
+static void store_terms(const group_terms *terms, uint term_count, uint first, uint count,
+                        uint sample_count, global float *out)
+{
+    for (uint k = 0; k < term_count; k++)
+        for (uint b = 0; b < count; b++)
+            store_block(terms->of[k][b], first + b, out + (size_t)k * sample_count * PIXEL_GROUP);
+}
+
+/* Spectra of what reaches the sensor, eq. 2.4-1 and 2.4-2, of groups of neighbouring pixels.
+ * Launch: (groups of PIXEL_GROUP pixels), from frame.first_group on.
  * facets: per facet, the ground's behind the real ones; materials: material_record
  * temperature_k, hit, background, sunlit, background_sunlit: per pixel
  * spectra: shape (rows, sample_count), see SPECTRA_...; emissivity: shape (rows, sample_count)
@@ -280,17 +271,10 @@ static pixel_state pixel_look(radiometry_record frame, const air_record *air, ca
  *   the mean background instead
  * extinction: rows of CLOUD_... (cloud.h), per m; bodies: see crossing.cl; both NULL in
  *   a scene without transmissive bodies
- * bands: band_record; weights: of each its samples', um
- * bands_between: per block of SPECTRA_BLOCK samples the first band that it is in, and one more than
- *   the last; those between may not be in it
- * ln_radiance: shape (band_count, BAND_TEMPERATURES)
- * terms: shape (pixel_count, SENSOR_TERMS, sample_count), W m-2 sr-1 um-1: what the radiance at the
- *   sensor is the sum of where that is wanted, tau2, and the radiance; NULL: not wanted
- * planes: shape (band_count, BAND_PLANES, pixel_count): radiance W m-2 sr-1 (or its mean per um),
- *   counts, apparent temperature C, emissivity, background emissivity; NO_VALUE where there is none;
- *   where they are wanted, what the radiance is the sum of, at the sensor: emitted by the target,
- *   reflected of the sun, the sky and the background, path; and mean tau2; no
- *   standard error */
+ * emissivities: shape (pixel_count, 2): of the target and of its background, rows of `emissivity`
+ * terms: shape (groups launched, band_plane_terms, sample_count, PIXEL_GROUP), W m-2 sr-1 um-1: what
+ *   the radiance is the sum of where that is wanted (emitted by the target, reflected of the sun,
+ *   the sky and the background, path) and tau2; then the radiance. Of pixels past the end 0 */
 kernel void radiometry(const radiometry_record frame, const air_record air,
                        const camera_record camera, global const facet_record *facets,
                        global const material_record *materials, global const float *temperature_k,
@@ -298,41 +282,41 @@ kernel void radiometry(const radiometry_record frame, const air_record air,
                        global const float *sunlit, global const float *background_sunlit,
                        global const float *spectra, global const float *emissivity,
                        global const float *incident, global const float *extinction,
-                       global const transmission_path *bodies, global const band_record *bands,
-                       global const float *weights, global const uint *bands_between,
-                       global const float *ln_radiance, global float *terms, global float *planes)
+                       global const transmission_path *bodies,
+                       global emissivity_record *emissivities, global float *terms)
 {
-    const uint pixel = get_global_id(0);
-    if (pixel >= frame.pixel_count) return;
+    const uint group = get_global_id(0), first = (frame.first_group + group) * PIXEL_GROUP;
+    if (first >= frame.pixel_count) return;
 
-    const spectra_tables tables = {
-        spectra,
-        emissivity,
-        frame.thesis ? 0 : incident + (size_t)pixel * 2u * frame.sample_count,
-        extinction,
-        bodies + pixel,
-        terms ? terms + (size_t)pixel * SENSOR_TERMS * frame.sample_count : 0};
-    const pixel_state state =
-        pixel_look(frame, &air, camera, pixel, hit[pixel], background[pixel], sunlit[pixel],
-                   background_sunlit[pixel], facets, materials, temperature_k[pixel]);
-    const size_t band_step = (size_t)BAND_PLANES * frame.pixel_count;
-    planes += pixel;
-    for (uint block = 0; block < frame.sample_count / SPECTRUM_WIDTH; block++) {
-        const block_terms seen = state.interaction == INTERACTION_MISSED
-                                     ? look_at_sky(&state, tables, frame, &air, block)
-                                     : look_at_target(&state, tables, frame, &air, block);
-        const uint2 between = vload2(block * SPECTRUM_WIDTH / SPECTRA_BLOCK, bands_between);
-        for (uint b = between.x; b < between.y; b++) {
-            const band_record band = bands[b];
-            const uint place = block - band.first_sample / SPECTRUM_WIDTH;
-            const uint count = band.sample_count / SPECTRUM_WIDTH;
-            global float *out = planes + b * band_step;
-            if (place >= count) continue;
-            add_block(out, frame, &seen, spectrum_load(weights + band.first_weight, place),
-                      place == 0u);
-            if (place + 1u == count)
-                finish_band(out, frame, &state, band, ln_radiance + b * BAND_TEMPERATURES);
+    const uint count = min(PIXEL_GROUP, frame.pixel_count - first);
+    const uint term_count = band_plane_terms(frame.wants), row = frame.sample_count;
+    const uint blocks = row / SPECTRUM_WIDTH;
+    spectra_tables tables = {spectra, emissivity, 0, extinction, bodies};
+    pixel_state state[PIXEL_GROUP];
+    group_terms own;
+
+    for (uint i = 0; i < count; i++) {
+        const uint pixel = first + i;
+        state[i] =
+            pixel_look(frame, &air, camera, pixel, hit[pixel], background[pixel], sunlit[pixel],
+                       background_sunlit[pixel], facets, materials, temperature_k[pixel]);
+        store_emissivities(&state[i], emissivities + 2u * pixel);
+    }
+    for (uint k = 0; k < SENSOR_TERMS * BLOCKS_TOGETHER; k++)
+        for (uint i = count; i < PIXEL_GROUP; i++)
+            own.of[k / BLOCKS_TOGETHER][k % BLOCKS_TOGETHER][i] = (spectrum)0.0f;
+    terms += (size_t)group * term_count * row * PIXEL_GROUP;
+    for (uint block = 0; block < blocks; block += BLOCKS_TOGETHER) {
+        const uint together = min(BLOCKS_TOGETHER, blocks - block);
+        for (uint i = 0; i < count; i++) {
+            if (!frame.thesis) tables.incident = incident + (size_t)(first + i) * 2u * row;
+            tables.bodies = bodies + first + i;
+            for (uint b = 0; b < together; b++) {
+                const block_terms seen = look(&state[i], tables, frame, &air, block + b);
+                for (uint k = 0; k + 1u < term_count; k++) own.of[k][b][i] = seen.part[k];
+                own.of[term_count - 1u][b][i] = seen.radiance;
+            }
         }
-        store_terms(tables, frame, block, &seen);
+        store_terms(&own, term_count, block, together, row, terms);
     }
 }

@@ -168,8 +168,9 @@ typedef struct radiometry_record {
     uint zenith_count, azimuth_count; /* directions of the sky */
     float zenith_step_deg, azimuth_step_deg;
     float sun[3];     /* unit vector towards the sun */
-    uint wants_parts; /* 1: the planes of the radiance's parts are written too */
-    uint unused[3];
+    uint wants;       /* planes of the bands, a bit each; see band_plane.h */
+    uint first_group; /* of a launch over groups of PIXEL_GROUP pixels, counted in the tile */
+    uint unused[2];
 } radiometry_record;
 RECORD_SIZE(radiometry_record, 80);
 
@@ -219,14 +220,14 @@ typedef struct incident_record {
 } incident_record;
 RECORD_SIZE(incident_record, 32);
 
-/* A band of the sensor: whole blocks of the rows that all bands share. */
+/* A band of the sensor: a run of the samples that all bands share. */
 typedef struct band_record {
-    uint first_sample;  /* a multiple of 16 */
-    uint sample_count;  /* a multiple of 16; those that are not the band's have weight 0 */
+    uint first_sample;
+    uint sample_count;  /* those between that are not the band's have weight 0 */
     float gain, offset; /* counts = gain x radiance in band + offset */
     float width_um;     /* sum of the weights */
     uint is_mean;       /* 1: the radiance plane holds radiance in band / width */
-    uint first_weight;  /* where the bands' own weights begin, a multiple of 16 */
+    uint first_weight;  /* where the band's own weights begin */
     uint unused;
 } band_record;
 RECORD_SIZE(band_record, 32);
@@ -236,16 +237,33 @@ RECORD_SIZE(band_record, 32);
 #define BAND_LOWEST_K 1.0f
 #define BAND_HIGHEST_K 20000.0f
 
-/* Planes that the radiometry writes per band, and those that it writes once. */
+/* Planes per band, and those that there are once. */
 #define BAND_PLANES 12u
+#define BAND_RADIANCE 0u
+#define BAND_COUNTS 1u
+#define BAND_APPARENT 2u
+#define BAND_EMISSIVITY 3u
+#define BAND_BACKGROUND_EMISSIVITY 4u
 #define BAND_PARTS 5u     /* the first of the parts of the radiance */
+#define BAND_TAU2 10u     /* the last of them */
 #define RADIANCE_PARTS 6u /* emitted, of the sun, the sky, the background; path, tau2 */
 #define BAND_STDERR 11u   /* of the radiance; written for pixels of several samples */
 #define TRUTH_PLANES 11u
 #define SUN_PLANES 2u /* behind those: of the sun's history */
 
-/* Spectra of a pixel at the sensor: its RADIANCE_PARTS, then the radiance itself. */
+/* Spectra of a pixel at the sensor: its RADIANCE_PARTS where they are wanted, then the radiance. */
 #define SENSOR_TERMS (RADIANCE_PARTS + 1u)
+
+/* Pixels that stand side by side in their spectra, and to which rows of the bands' planes are padded. */
+#define PIXEL_GROUP 16u
+
+/* Where an emissivity of a pixel stands: between two rows of the table. */
+typedef struct emissivity_record {
+    uint low, high; /* RECORD_NONE: there is none */
+    float share;    /* of the second, 0..1 */
+    uint unused;
+} emissivity_record;
+RECORD_SIZE(emissivity_record, 16);
 
 /* A band of the detectors; radiances in the unit of its plane. */
 typedef struct detector_record {

@@ -27,13 +27,24 @@ static inline void spectrum_store(spectrum s, global float *row, uint block)
     vstore16(s, block, row);
 }
 
-static inline float spectrum_sum(spectrum s)
+/* Turns 16 spectra of 16 samples into what they have at each sample. Each pass turns the number of
+ * a row and its place in it, as 8 bits, by one bit. */
+static inline void spectrum_turn(const spectrum *from, spectrum *out)
 {
-    const float8 eight = s.lo + s.hi;
-    const float4 four = eight.lo + eight.hi;
-    const float2 two = four.lo + four.hi;
+    spectrum next[16];
 
-    return two.x + two.y;
+    UNROLL
+    for (int i = 0; i < 16; i++) out[i] = from[i];
+    UNROLL
+    for (int pass = 0; pass < 4; pass++) {
+        UNROLL
+        for (int i = 0; i < 8; i++) {
+            next[i] = (spectrum)(out[2 * i].even, out[2 * i + 1].even);
+            next[i + 8] = (spectrum)(out[2 * i].odd, out[2 * i + 1].odd);
+        }
+        UNROLL
+        for (int i = 0; i < 16; i++) out[i] = next[i];
+    }
 }
 
 #elif SPECTRUM_WIDTH == 1
@@ -51,11 +62,6 @@ static inline void spectrum_store(spectrum s, global float *row, uint block)
     row[block] = s;
 }
 #endif
-
-static inline float spectrum_sum(spectrum s)
-{
-    return s;
-}
 
 #endif
 

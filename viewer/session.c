@@ -140,7 +140,7 @@ static status render_frame(session *s, const render_look *look, unsigned number)
     for (size_t done = 0, all = frame_pixels(f); done < all;) {
         const uint32_t count = all - done < most ? (uint32_t)(all - done) : most;
         if (!look->is_coarse && is_outdated(s, number)) goto out;
-        rc = render_tile(s->r, (uint32_t)done, count, f->values);
+        rc = render_tile(s->r, (uint32_t)done, count, f->values, NULL);
         if (rc == STATUS_MEMORY && most > 1) {
             most /= 2;
             continue;

@@ -55,6 +55,21 @@ static void write_image(const image_plane *plane, size_t plane_count, const imag
     commit(folder);
 }
 
+static void what_is_written_to_a_plane_stands_in_the_map(void **state)
+{
+    static const image_plane planes[2] = {{.name = "a"}, {.name = "b"}};
+    static const float values[3] = {7.0f, 8.0f, 9.0f};
+
+    (void)state;
+    output_folder *folder = opened();
+    image *img = filled(folder, "a", planes, 2);
+    assert_int_equal(image_write(img, 1, 2, 3, values), STATUS_OK);
+    const float expected[6] = {100.0f, 101.0f, 7.0f, 8.0f, 9.0f, 112.0f};
+    assert_memory_equal(image_values(img, 1), expected, sizeof expected);
+    image_free(img);
+    output_folder_free(folder);
+}
+
 static void the_header_of_a_cube_has_wavelengths_and_its_unit(void **state)
 {
     (void)state;
@@ -275,6 +290,7 @@ static void two_exr_files_of_one_render_have_the_same_bytes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        TEST(what_is_written_to_a_plane_stands_in_the_map),
         TEST(the_header_of_a_cube_has_wavelengths_and_its_unit),
         TEST(the_header_of_truth_planes_has_units_in_the_names_and_no_stray_marks),
         TEST(lines_of_a_long_list_stay_below_100_characters),

@@ -103,7 +103,7 @@ static float *render_all(const scene *s, uint32_t tile, size_t *out_planes)
     for (size_t i = 0; i < *out_planes; i++) planes[i] = values + i * PIXELS;
     for (uint32_t first = 0; first < PIXELS; first += tile) {
         const uint32_t left = PIXELS - first;
-        if (render_tile(r, first, left < tile ? left : tile, planes) != STATUS_OK)
+        if (render_tile(r, first, left < tile ? left : tile, planes, NULL) != STATUS_OK)
             fail_msg("%s", status_message());
     }
     render_free(r);
@@ -124,7 +124,7 @@ static float *render_plane_of(const scene *s, const char *name)
     for (size_t i = 0; i < count; i++)
         if (!strcmp(list[i].name, name)) planes[i] = values, found++;
     assert_int_equal(found, 1);
-    if (render_tile(r, 0, PIXELS, planes) != STATUS_OK) fail_msg("%s", status_message());
+    if (render_tile(r, 0, PIXELS, planes, NULL) != STATUS_OK) fail_msg("%s", status_message());
     render_free(r);
     return values;
 }

@@ -13,14 +13,24 @@ def copy(opencl, array):
                      hostbuf=np.ascontiguousarray(array))
 
 
+def room(opencl, size):
+    """A buffer of so many bytes."""
+    return cl.Buffer(opencl.context, cl.mem_flags.READ_WRITE, int(size))
+
+
+def read(opencl, memory, shape, dtype=np.float32):
+    """What a buffer holds."""
+    out = np.empty(shape, dtype)
+    cl.enqueue_copy(opencl.queue, out, memory)
+    return out
+
+
 def launch(opencl, kernel, count, arguments, shape, dtype=np.float32):
     """Runs a kernel over `count` (a number or a shape); its last argument is an array of `shape`,
     which is returned."""
-    out = np.empty(shape, dtype)
-    memory = cl.Buffer(opencl.context, cl.mem_flags.READ_WRITE, out.nbytes)
+    memory = room(opencl, np.prod(shape) * np.dtype(dtype).itemsize)
     kernel(opencl.queue, count if isinstance(count, tuple) else (count,), None, *arguments, memory)
-    cl.enqueue_copy(opencl.queue, out, memory)
-    return out
+    return read(opencl, memory, shape, dtype)
 
 
 def probe(opencl, header, body, inputs, outputs=1, options=""):

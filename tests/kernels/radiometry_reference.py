@@ -253,7 +253,7 @@ class Case:
             self.set_bodies()
 
     def set_bands(self):
-        """Three bands apart, and one that shares blocks of the first two with other weights."""
+        """Three bands apart, and one that shares samples of the first two with other weights."""
         edges = [(8.0, 14.0, 30), (0.5, 0.9, 11), (3.0, 5.0, 16)]
         self.bands = np.zeros(len(edges) + 1, records.BAND)
         self.wavelength_um, weight = [], []
@@ -261,20 +261,18 @@ class Case:
             padded = (used + 15) // 16 * 16
             width = np.diff(np.linspace(low, high, used + 1))
             band["first_sample"] = band["first_weight"] = len(weight)
-            band["sample_count"] = padded
+            band["sample_count"] = used
             band["width_um"] = high - low
             self.wavelength_um += list(np.linspace(low, high, used)) + [high] * (padded - used)
             weight += list(width) + [0.0] * (padded - used)
-        shared = np.zeros(32)
-        shared[3:20] = np.linspace(0.1, 0.3, 17)
-        self.bands[-1]["first_sample"], self.bands[-1]["sample_count"] = 16, 32
+        shared = np.linspace(0.1, 0.3, 17)
+        self.bands[-1]["first_sample"], self.bands[-1]["sample_count"] = 19, 17
         self.bands[-1]["first_weight"], self.bands[-1]["width_um"] = len(weight), shared.sum()
         self.bands["gain"], self.bands["offset"] = [2.5, 1.0, 40.0, 3.0], [-3.0, 0.0, 7.0, 0.0]
         self.bands["is_mean"] = [0, 1, 0, 0]
         self.wavelength_um, self.weight = np.array(self.wavelength_um), np.array(weight)
         self.weights = np.concatenate([weight, shared]).astype(np.float32)
-        self.weight[16:48] += shared
-        self.bands_between = np.array([[0, 1], [0, 4], [1, 4], [2, 3]], np.uint32)
+        self.weight[19:36] += shared
 
     def of_band(self, band):
         """Where in the rows a band is, and its weights there."""
@@ -288,6 +286,7 @@ class Case:
                 sample_count=len(self.weight), thesis=thesis, path_count=3,
                 path_zenith_first_deg=20, path_zenith_step_deg=20, zenith_count=7,
                 azimuth_count=13, zenith_step_deg=15, azimuth_step_deg=30,
+                wants=records.WITHOUT_PARTS,
                 sun=unit((0.5, -0.3, 0.7))).items():
             self.frame[name] = value
         self.camera = np.zeros(1, records.CAMERA)

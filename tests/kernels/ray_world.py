@@ -92,7 +92,7 @@ class RayWorld:
         met = self.cast(cell_count, cells, count, hits, sun, **how)
         rays = (np.uint32(cell_count), self.world[0], self.nodes, self.blocks)
         arguments = (*rays, cells, facets, temperature, materials, hits, self.copy(met))
-        shape = (count, 1)
+        shape = (-(-count // self.lanes), 1)
         return self.run("background", count, arguments, BACKGROUND, shape=shape, **how)[0]
 
     def cast(self, cell_count, cells, count, hits, sun, local=64, options=""):

@@ -4,6 +4,10 @@ import numpy as np
 NONE = 0xFFFFFFFF
 NO_VALUE = -9999.0
 BAND_PLANES, BAND_PARTS, RADIANCE_PARTS, BAND_STDERR, TRUTH_PLANES = 12, 5, 6, 11, 11
+BAND_RADIANCE, BAND_COUNTS, BAND_APPARENT, BAND_EMISSIVITY, BAND_BACKGROUND_EMISSIVITY = range(5)
+PIXEL_GROUP = 16
+WITHOUT_PARTS = (1 << BAND_PARTS) - 1  # planes that are wanted, a bit each
+ALL_PARTS = WITHOUT_PARTS | ((1 << RADIANCE_PARTS) - 1) << BAND_PARTS
 BAND_TEMPERATURES, BAND_LOWEST_K, BAND_HIGHEST_K = 1024, 1.0, 20000.0
 WEIGHT, PLANCK_FIRST, PLANCK_SECOND, SUN, SKY, PATHS = range(6)  # SPECTRA_...
 MISSED, DIFFUSE, SPECULAR_SKY, SPECULAR_BACKGROUND = range(4)  # INTERACTION_...
@@ -38,11 +42,12 @@ CAMERA = record("position[3] corner[3] across[3] down[3] *first_column *first_ro
                 " *is_orthographic *strata *seed *unused[3]")
 RADIOMETRY = record("*columns *first_pixel *pixel_count *band_count *sample_count *thesis"
                     " *path_count path_zenith_first_deg path_zenith_step_deg *zenith_count"
-                    " *azimuth_count zenith_step_deg azimuth_step_deg sun[3] *wants_parts *unused[3]")
+                    " *azimuth_count zenith_step_deg azimuth_step_deg sun[3] *wants *first_group *unused[2]")
 AIR = record("*first_row *altitude_count *range_count *is_level ground_z_m *unused[3] altitude_z_m[20]"
              " range_m[20]")
 TRANSMISSION_PATH = record("length_m[4] temperature_k[4] middle_m[4] vertical_m[4] *medium[4]")
 INCIDENT = record("*cell_count *dome_count *ring_count *light_length *is_of_facets *keeps_sky *unused[2]")
+EMISSIVITY = record("*low *high share *unused")
 BAND = record("*first_sample *sample_count gain offset width_um *is_mean *first_weight *unused")
 DETECTOR = record("*seed *frame *band *columns *count *last_count noise shot fixed_gain fixed_offset"
                   " periodic waves_across waves_down gain offset *unused")

@@ -30,15 +30,17 @@ def tables(opencl):
     rows = np.array([weight, FIRST / wavelength**5, SECOND / wavelength], np.float32)
     arguments = [np.uint32(len(weight)), probe.copy(opencl, rows), probe.copy(opencl, bands),
                  probe.copy(opencl, np.float32(weight))]
-    size = (records.BAND_TEMPERATURES, len(BANDS))
-    return probe.launch(opencl, opencl.build("band_temperature"), size, arguments, size[::-1])
+    size = (records.BAND_TEMPERATURES // 16, len(BANDS))
+    shape = (len(BANDS), records.BAND_TEMPERATURES)
+    return probe.launch(opencl, opencl.build("band_temperature"), size, arguments, shape)
 
 
 def find(opencl, table, radiance):
     """Temperatures of radiances, K."""
     padded = np.resize(np.asarray(radiance, np.float32), records.BAND_TEMPERATURES)
     found = probe.probe(opencl, "band_temperature.h",
-                        "out[0] = band_temperature_find(in0, in1[i]);", [table, padded])[0]
+                        "out[0] = band_temperature_find(in0, in1[i]);", [table, padded],
+                        options="-DLANES_WIDTH=1")[0]
     return found[: len(radiance)]
 
 

@@ -27,19 +27,40 @@ def ln_table(wavelength_um, weight):
     return kelvin, np.logaddexp.reduce(terms - np.log1p(-np.exp(-x)), axis=1)
 
 
-def run(opencl, case, options=""):
-    """Planes of shape (bands, BAND_PLANES, pixels)."""
-    tables = []
-    for band in case.bands:
-        at, weight = case.of_band(band)
-        tables.append(ln_table(case.wavelength_um[at], weight)[1])
+def tables_of(opencl, case):
+    """What band_planes looks up: mean emissivities, and ln of radiances."""
+    own = [ln_table(case.wavelength_um[at], weight)[1] for at, weight in map(case.of_band, case.bands)]
+    shape = (len(case.emissivity), len(case.bands))
+    arguments = [np.uint32(len(case.weight)), np.uint32(len(case.bands)),
+                 *(probe.copy(opencl, a) for a in (case.bands, case.weights, case.emissivity))]
+    emissivity = probe.launch(opencl, opencl.build("band_emissivity"), shape[::-1], arguments, shape)
+    return emissivity, np.array(own, np.float32)
+
+
+def run(opencl, case, options="", groups=None):
+    """Planes of shape (bands, wanted planes, pixels); `groups` pixels' groups a launch, else all."""
+    pixels, wants = len(case.hit), int(case.frame["wants"][0])
+    all_groups = -(-pixels // records.PIXEL_GROUP)
+    row = all_groups * records.PIXEL_GROUP
     arrays = [case.facets, case.materials, case.pixel_k, case.hit, case.background,
               case.sunlit, case.background_sunlit, case.spectra, case.emissivity, case.incident,
-              case.extinction, case.body_paths,
-              case.bands, case.weights, case.bands_between, np.array(tables, np.float32), None]
-    arguments = [case.frame[0], case.air[0], case.camera[0], *(a if a is None else probe.copy(opencl, a) for a in arrays)]
-    shape = (len(case.bands), records.BAND_PLANES, len(case.hit))
-    return probe.launch(opencl, opencl.build("radiometry", options), len(case.hit), arguments, shape)
+              case.extinction, case.body_paths]
+    inputs = [case.air[0], case.camera[0], *(a if a is None else probe.copy(opencl, a) for a in arrays)]
+    emissivity, ln_radiance = tables_of(opencl, case)
+    emissivities = probe.room(opencl, 2 * row * records.EMISSIVITY.itemsize)
+    terms = probe.room(opencl, 7 * row * len(case.weight) * 4)
+    rest = [*(probe.copy(opencl, a) for a in (case.bands, case.weights, emissivity, ln_radiance)),
+            emissivities, terms]
+    shape = (len(case.bands), bin(wants).count("1"), row)
+    planes = probe.room(opencl, 4 * np.prod(shape))
+    groups = groups or all_groups
+    frame = case.frame[0].copy()
+    for first in range(0, all_groups, groups):
+        frame["first_group"] = first
+        size = (min(groups, all_groups - first),)
+        opencl.build("radiometry", options)(opencl.queue, size, None, frame, *inputs, emissivities, terms)
+        opencl.build("band_planes")(opencl.queue, size, None, frame, *rest, planes)
+    return probe.read(opencl, planes, shape)[..., :pixels]
 
 
 @pytest.fixture(scope="module", params=[
@@ -112,9 +133,24 @@ def test_pixels_do_not_depend_on_tiles(opencl):
     for name in ("hit", "background", "sunlit", "background_sunlit", "pixel_k", "incident"):
         setattr(part, name, getattr(case, name)[37:67])
 
-    used = slice(0, records.BAND_PARTS)  # the parts are not asked for
-    expected = np.ascontiguousarray(whole[:, used, 37:67])
-    assert np.ascontiguousarray(run(opencl, part)[:, used]).tobytes() == expected.tobytes()
+    assert run(opencl, part).tobytes() == whole[..., 37:67].tobytes()
+
+
+def test_pixels_do_not_depend_on_how_many_are_integrated_at_once(opencl):
+    case = Case(5, 100, 0)
+
+    assert run(opencl, case, groups=3).tobytes() == run(opencl, case).tobytes()
+
+
+@pytest.mark.parametrize("wanted", [[0], [0, 2], [0, 1, 4], [0, 3, 7]])
+def test_planes_do_not_depend_on_the_others_that_are_wanted(opencl, wanted):
+    case = Case(5, 100, 1)
+    case.frame["wants"] = records.ALL_PARTS
+    expected = run(opencl, case)[:, wanted]
+
+    case.frame["wants"] = sum(1 << plane for plane in wanted)
+
+    assert run(opencl, case).tobytes() == expected.tobytes()
 
 
 @pytest.mark.parametrize("options", WIDTHS)
@@ -122,7 +158,7 @@ def test_pixels_do_not_depend_on_tiles(opencl):
 @pytest.mark.parametrize("thesis", [0, 1], ids=["exact", "thesis"])
 def test_parts_of_the_radiance_equal_double_precision_and_add_up(opencl, thesis, bodies, options):
     case = Case(6, 120, thesis, bodies)
-    case.frame["wants_parts"] = 1
+    case.frame["wants"] = records.ALL_PARTS
     expected = np.array([Reference(case).part_planes(i) for i in range(120)]).transpose(1, 2, 0)
 
     planes = run(opencl, case, options)
@@ -189,10 +225,9 @@ def black_plane(low_um, high_um, temperature_k):
     case = Case(1, 1, 0)
     case.weight = np.pad(weight, (0, pad))
     case.weights = case.weight.astype(np.float32)
-    case.bands_between = np.tile(np.uint32([0, 1]), (len(case.weight) // 16, 1))
     case.wavelength_um = np.pad(wavelength, (0, pad), mode="edge")
     case.bands = np.zeros(1, records.BAND)
-    case.bands[0] = (0, len(case.weight), 1, 0, high_um - low_um, 0, 0, 0)
+    case.bands[0] = (0, len(weight), 1, 0, high_um - low_um, 0, 0, 0)
     case.frame["band_count"], case.frame["sample_count"] = 1, len(case.weight)
     case.frame["path_count"] = case.frame["zenith_count"] = case.frame["azimuth_count"] = 1
     case.materials[:1]["specular_share"], case.materials[:1]["emissivity_angles"] = 0, 1

@@ -14,6 +14,7 @@ TWINS = {
     "radiometry_record": records.RADIOMETRY, "incident_record": records.INCIDENT, "band_record": records.BAND,
     "detector_record": records.DETECTOR, "blur_record": records.BLUR, "air_record": records.AIR,
     "conduction_record": records.CONDUCTION, "view_record": records.VIEW,
+    "emissivity_record": records.EMISSIVITY,
 }
 
 
@@ -66,7 +67,8 @@ def test_other_twins_agree_where_they_name_the_same_field(name, dtype):
 
 
 @pytest.mark.parametrize("name", [
-    "BAND_PLANES", "BAND_PARTS", "RADIANCE_PARTS", "BAND_STDERR", "TRUTH_PLANES", "BAND_TEMPERATURES", "BAND_LOWEST_K",
+    "BAND_PLANES", "BAND_PARTS", "RADIANCE_PARTS", "BAND_STDERR", "TRUTH_PLANES", "BAND_RADIANCE", "BAND_COUNTS",
+    "BAND_APPARENT", "BAND_EMISSIVITY", "BAND_BACKGROUND_EMISSIVITY", "PIXEL_GROUP", "BAND_TEMPERATURES", "BAND_LOWEST_K",
     "BAND_HIGHEST_K", "NO_VALUE", "SPECTRA_WEIGHT", "SPECTRA_PLANCK_FIRST", "SPECTRA_PLANCK_SECOND", "SPECTRA_SUN",
     "SPECTRA_SKY", "SPECTRA_PATHS", "INTERACTION_MISSED", "INTERACTION_DIFFUSE",
     "INTERACTION_SPECULAR_SKY", "INTERACTION_SPECULAR_BACKGROUND"])

@@ -52,12 +52,24 @@ def test_the_mode_of_samples_is_the_commonest_and_of_equals_the_lowest(opencl, s
     assert list(got) == [value[np.argmax(count)] for value, count in values]
 
 
-def band_mean(opencl, samples_of, bands, ln_radiance, wants_parts):
+def padded(planes):
+    """Rows as long as whole groups of pixels."""
+    return np.pad(planes, ((0, 0), (0, 0), (0, -planes.shape[2] % records.PIXEL_GROUP)))
+
+
+def band_mean(opencl, samples_of, bands, ln_radiance):
+    """All planes, from all but the apparent temperature and the standard error."""
     count, _, pixels, samples = samples_of.shape
+    wants = (1 << records.BAND_PLANES) - 1
+    planes = [k for k in range(records.BAND_PLANES)
+              if k not in (records.BAND_APPARENT, records.BAND_STDERR)]
+    own = padded(samples_of[:, planes].reshape(count, len(planes), -1))
+    row = -(-pixels // records.PIXEL_GROUP) * records.PIXEL_GROUP
     return probe.launch(opencl, opencl.build("band_mean"), (pixels, count),
-                        [np.uint32(pixels), np.uint32(samples), np.uint32(wants_parts),
-                         *(probe.copy(opencl, a) for a in (bands, ln_radiance, samples_of))],
-                        (count, records.BAND_PLANES, pixels))
+                        [np.uint32(pixels), np.uint32(samples), np.uint32(wants),
+                         np.uint32(sum(1 << k for k in planes)),
+                         *(probe.copy(opencl, a) for a in (bands, ln_radiance, own))],
+                        (count, records.BAND_PLANES, row))[..., :pixels]
 
 
 @pytest.mark.parametrize("is_mean", [0, 1])
@@ -71,7 +83,7 @@ def test_band_planes_of_samples_are_means_with_their_standard_error(opencl, is_m
         np.arange(records.BAND_TEMPERATURES) / (records.BAND_TEMPERATURES - 1))
     ln_radiance = np.log(np.stack([kelvin, kelvin])).astype(np.float32)
 
-    planes = band_mean(opencl, samples_of, bands, ln_radiance, 1)
+    planes = band_mean(opencl, samples_of, bands, ln_radiance)
 
     mean = samples_of.astype(float).mean(axis=3)
     end = records.BAND_PARTS + records.RADIANCE_PARTS
