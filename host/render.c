@@ -232,6 +232,7 @@ void render_free(render *r)
 {
     if (!r) return;
     free(r->planes);
+    device_release(r->shared.incident);
     interreflection_free(r->shared.lights);
     incident_free(r->shared.around);
     temperature_free(r->shared.warmth);
@@ -311,7 +312,7 @@ const spectra *render_spectra(const render *r)
 
 /* The spectra of one sample.
  *   out   shape (count) */
-static status sample_terms(const render *r, uint32_t sample, size_t count, float *out)
+static status sample_terms(render *r, uint32_t sample, size_t count, float *out)
 {
     status rc = STATUS_OK;
     device *dev = r->shared.dev;

@@ -4,7 +4,7 @@
 
 #include "sunlight.h"
 
-enum { TILE_BYTES = 1 << 27, TILE_LEAST = 1 << 10, TILE_MOST = 1 << 16 };
+enum { TILE_BYTES = 1 << 25, TILE_LEAST = 1 << 10, TILE_MOST = 1 << 16 };
 
 /* What bodies add to a pixel: its ways, and the shares of its history. */
 static uint32_t body_words(const render_shared *r)
@@ -33,8 +33,23 @@ static bool has_incident(const render_shared *r)
     return r->around && !r->is_coarse;
 }
 
-status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t first,
-                        uint32_t count)
+/* Sees to it that the spectra of so many pixels have room. */
+static status keep_incident(render_shared *r, uint32_t count)
+{
+    status rc = STATUS_OK;
+
+    if (count <= r->incident_count) goto out;
+    device_release(r->incident);
+    r->incident = NULL;
+    r->incident_count = 0;
+    TRY(device_allocate(r->dev, &r->incident,
+                        (size_t)count * 2 * r->frame.sample_count * sizeof(float), NULL));
+    r->incident_count = count;
+out:
+    return rc;
+}
+
+status render_tile_open(render_tile_memory *t, render_shared *r, uint32_t first, uint32_t count)
 {
     status rc = STATUS_OK;
     const size_t n = count;
@@ -50,9 +65,10 @@ status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t 
     TRY(device_allocate(r->dev, &t->background, n * sizeof(background_record), NULL));
     TRY(device_allocate(r->dev, &t->background_hit, n * sizeof(hit_record), NULL));
     TRY(device_allocate(r->dev, &t->background_lit, n * sizeof(float), NULL));
-    if (has_incident(r))
-        TRY(device_allocate(r->dev, &t->incident, n * 2 * r->frame.sample_count * sizeof(float),
-                            NULL));
+    if (has_incident(r)) {
+        TRY(keep_incident(r, count));
+        t->incident = r->incident;
+    }
     if (has_incident(r) && scene_is_rough(r->s))
         TRY(device_allocate(r->dev, &t->gloss, n * LOBE_RAYS * sizeof(uint32_t), NULL));
     if (r->bodies) {
@@ -77,7 +93,6 @@ void render_tile_free(render_tile_memory *t)
     device_release(t->background_direct);
     device_release(t->direct);
     device_release(t->body_paths);
-    device_release(t->incident);
     device_release(t->gloss);
     device_release(t->background_lit);
     device_release(t->background_hit);

@@ -23,6 +23,10 @@ typedef struct render_shared {
     radiometry_record frame;
     air_record air;
     camera_record camera;
+    /* Exact mode: spectra of a tile, shape (incident_count, 2, samples). They are kept for the next tile,
+     * as fresh memory costs more time than it takes to fill it. */
+    device_memory incident;
+    uint32_t incident_count;
 } render_shared;
 
 /* What one tile holds on the device. */
@@ -31,7 +35,7 @@ typedef struct render_tile_memory {
     shape_factor_points points;
     device_memory lit, history, temperature_k, background, background_hit, background_lit;
     device_memory gloss;    /* exact mode with rough materials: see gloss.cl */
-    device_memory incident; /* exact mode: spectra, shape (count, 2, samples) */
+    device_memory incident; /* the render's; NULL: not wanted */
     device_memory body_paths, direct, background_direct; /* with bodies: see crossing.cl */
     device_memory truth_planes, band_planes;
     device_memory terms; /* see radiometry.cl; NULL: not wanted */
@@ -43,10 +47,10 @@ uint32_t render_tile_most(const render_shared *r);
 /* Samples of a pixel; where there are several, what follows counts them, and not pixels. */
 uint32_t render_tile_samples(const render_shared *r);
 
-/* Takes memory for pixels first .. first + count - 1, but for terms. After a failure too,
+/* Takes memory for pixels first .. first + count - 1, but for terms; of the render only the memory that
+ * it keeps changes. After a failure too,
  * render_tile_free is due. */
-status render_tile_open(render_tile_memory *t, const render_shared *r, uint32_t first,
-                        uint32_t count);
+status render_tile_open(render_tile_memory *t, render_shared *r, uint32_t first, uint32_t count);
 void render_tile_free(render_tile_memory *t);
 
 /* Computes the planes of the tile: truth_planes, shape (TRUTH_PLANES + SUN_PLANES, count), and
