@@ -14,41 +14,65 @@ struct incident {
     const shape_factor_grid *grid;
     shape_factor_tables tables;
     incident_record how;
-    device_memory dome; /* float, shape (how.dome_count, 8) */
+    device_memory dome; /* float, shape (DOME_ROWS, how.dome_count) */
 };
 
+/* A point between two rows of a table. */
+typedef struct table_place {
+    double deg;
+    uint32_t row, next;
+    double share; /* of the next */
+} table_place;
+
 /* Point `i` of two in every interval of an even division of span_deg, after Gauss: exact for cubics
- * between the table's rows.
- *   out_row, out_share   its place in the table; 0 where that has one row */
-static double gauss_deg(uint32_t i, uint32_t intervals, double span_deg, bool is_table,
-                        float *out_row, float *out_share)
+ * between the table's rows, of which there may be one alone. */
+static table_place gauss_place(uint32_t i, uint32_t intervals, double span_deg, bool is_table)
 {
     const double share = i % 2 ? .5 + .5 / sqrt(3.0) : .5 - .5 / sqrt(3.0);
+    table_place at = {.deg = span_deg / intervals * (i / 2 + share)};
 
-    *out_row = is_table ? (float)(i / 2) : 0.0f;
-    *out_share = is_table ? (float)share : 0.0f;
-    return span_deg / intervals * (i / 2 + share);
+    if (is_table) {
+        at.row = i / 2;
+        at.next = at.row + 1;
+        at.share = share;
+    }
+    return at;
 }
 
-/* The sky in points: direction, solid angle, place in the table. */
-static void fill_dome(float *dome, uint32_t zeniths, uint32_t azimuths,
+/* Fills a point of the dome.
+ *   point   in the first row; count: floats of a row */
+static void fill_point(float *point, uint32_t count, table_place zenith, table_place azimuth,
+                       uint32_t azimuth_count)
+{
+    const double down = zenith.deg * M_PI / 180.0, turn = azimuth.deg * M_PI / 180.0;
+    const uint32_t row[2] = {zenith.row, zenith.next}, column[2] = {azimuth.row, azimuth.next};
+
+    point[0] = (float)(sin(down) * sin(turn));
+    point[count] = (float)(sin(down) * cos(turn));
+    point[2 * count] = (float)cos(down);
+    for (uint32_t k = 0; k < 4; k++) {
+        float *corner = point + (DOME_CORNERS + k) * count;
+        corner[0] = (float)(row[k / 2] * azimuth_count + column[k % 2]);
+        corner[4 * count] = (float)((k / 2 ? zenith.share : 1.0 - zenith.share) *
+                                    (k % 2 ? azimuth.share : 1.0 - azimuth.share));
+    }
+}
+
+/* The sky in points.
+ *   dome   shape (DOME_ROWS, count), 0 */
+static void fill_dome(float *dome, uint32_t count, uint32_t zeniths, uint32_t azimuths,
                       const radiometry_record *frame)
 {
     const double ring_rad = M_PI / 4.0 / zeniths, step_rad = M_PI / azimuths;
 
     for (uint32_t z = 0; z < 2 * zeniths; z++)
         for (uint32_t a = 0; a < 2 * azimuths; a++) {
-            float *cell = dome + 8 * (z * 2 * azimuths + a);
-            const double zenith =
-                M_PI / 180.0 *
-                gauss_deg(z, zeniths, 90.0, frame->zenith_count > 1, &cell[4], &cell[5]);
-            const double azimuth =
-                M_PI / 180.0 *
-                gauss_deg(a, azimuths, 360.0, frame->azimuth_count > 1, &cell[6], &cell[7]);
-            cell[0] = (float)(sin(zenith) * sin(azimuth));
-            cell[1] = (float)(sin(zenith) * cos(azimuth));
-            cell[2] = (float)cos(zenith);
-            cell[3] = (float)(sin(zenith) * ring_rad * step_rad);
+            float *point = dome + z * 2 * azimuths + a;
+            const table_place zenith = gauss_place(z, zeniths, 90.0, frame->zenith_count > 1);
+            const table_place azimuth = gauss_place(a, azimuths, 360.0, frame->azimuth_count > 1);
+            fill_point(point, count, zenith, azimuth, frame->azimuth_count);
+            point[DOME_SOLID_ANGLE * count] =
+                (float)(sin(zenith.deg * M_PI / 180.0) * ring_rad * step_rad);
         }
 }
 
@@ -57,14 +81,15 @@ static status make_dome(incident *in, const radiometry_record *frame)
     status rc = STATUS_OK;
     const uint32_t zeniths = frame->zenith_count > 1 ? frame->zenith_count - 1 : 6;
     const uint32_t azimuths = frame->azimuth_count > 1 ? frame->azimuth_count - 1 : 12;
-    float *dome = NULL;
+    const uint32_t groups = (4 * zeniths * azimuths + PIXELS_AT_ONCE - 1) / PIXELS_AT_ONCE;
+    const uint32_t count = groups * PIXELS_AT_ONCE;
+    float *dome = calloc((size_t)DOME_ROWS * count, sizeof *dome);
 
-    in->how.dome_count = 4 * zeniths * azimuths;
-    dome = malloc(in->how.dome_count * 8 * sizeof *dome);
     NEED(dome, STATUS_MEMORY, "no memory for the sky");
-    fill_dome(dome, zeniths, azimuths, frame);
+    fill_dome(dome, count, zeniths, azimuths, frame);
+    in->how.dome_count = count;
     TRY(device_allocate(ray_scene_device(in->scene), &in->dome,
-                        in->how.dome_count * 8 * sizeof *dome, dome));
+                        (size_t)DOME_ROWS * count * sizeof *dome, dome));
 out:
     free(dome);
     return rc;

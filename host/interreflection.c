@@ -20,7 +20,7 @@ struct interreflection {
     interreflection_spectra spectra;
     uint32_t depth;
     device_memory background; /* background_record, per facet, the ground's last */
-    device_memory light;      /* float, shape (facets, 2, spectra.sample_count) */
+    device_memory light;      /* float, shape (facets, LIGHT_ROWS, spectra.sample_count) */
     uint32_t chunk_count;
     chunk *chunks;
     float sun[3]; /* that the rays were cast for */
@@ -199,7 +199,7 @@ status interreflection_open(interreflection **out, const interreflection_scene *
     for (uint32_t i = 0; i < f->chunk_count; i++) f->chunks[i].last_depth = depth;
     if (depth == 0) TRY(find_depth(f, reflectance, reach));
     TRY(device_allocate(device_of(f), &f->light,
-                        count_all(f) * 2 * spectra->sample_count * sizeof(float), NULL));
+                        count_all(f) * LIGHT_ROWS * spectra->sample_count * sizeof(float), NULL));
     *out = f;
     f = NULL;
 out:

@@ -47,7 +47,7 @@ void interreflection_free(interreflection *f);
  * a black body at its temperature. */
 status interreflection_set_sun(interreflection *f, const radiometry_record *frame);
 
-/* background_record, per facet, the ground's last; and float, shape (facets, 2, sample_count) of the
+/* background_record, per facet, the ground's last; and float, shape (facets, LIGHT_ROWS, sample_count) of the
  * spectra: see interreflection.cl. They change with the sun. */
 device_memory interreflection_background(const interreflection *f);
 device_memory interreflection_rows(const interreflection *f);

@@ -34,7 +34,7 @@ status render_move(render *r, const scene *s);
 /* The planes of the scene, radiances first; they belong to the render. */
 const render_plane *render_planes(const render *r, size_t *out_count);
 
-/* The most pixels that a tile should hold: what they need on the device stays below 128 MiB,
+/* The most pixels that a tile should hold: what they need on the device stays below 32 MiB,
  * whatever the number of their samples. */
 uint32_t render_tile_limit(const render *r);
 

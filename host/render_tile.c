@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-enum { TILE_BYTES = 1 << 27, TILE_LEAST = 1 << 10, TILE_MOST = 1 << 16 };
+enum { TILE_BYTES = 1 << 25, TILE_LEAST = 1 << 10, TILE_MOST = 1 << 16 };
 
 /* Spectra are integrated while they are in a cache. Groups of pixels of a work-group, and the least
  * that are launched at once. */

@@ -42,19 +42,4 @@ static inline spectrum incident_radiance(const incident_facet *f, spectrum emiss
                                incident_arriving(f, black_body, sun, sky, light));
 }
 
-/* Adds a direction of the sky to the weights of the table's directions: bilinear.
- *   weights   shape (zenith_count x azimuth_count, stride), moved to the surface */
-static inline void incident_add_sky(float *weights, uint stride, radiometry_record frame,
-                                    sky_lookup at, float weight)
-{
-    const uint low = at.zenith.low * frame.azimuth_count;
-    const uint high = at.zenith.high * frame.azimuth_count;
-    const float up = 1.0f - at.zenith.share, left = 1.0f - at.azimuth.share;
-
-    weights[(low + at.azimuth.low) * stride] += weight * up * left;
-    weights[(low + at.azimuth.high) * stride] += weight * up * at.azimuth.share;
-    weights[(high + at.azimuth.low) * stride] += weight * at.zenith.share * left;
-    weights[(high + at.azimuth.high) * stride] += weight * at.zenith.share * at.azimuth.share;
-}
-
 #endif

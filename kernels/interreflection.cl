@@ -8,7 +8,7 @@
  * spectra, emissivity: as radiometry.cl, of the frame's samples
  * arriving: (pixel_count, 2, sample_count): radiance of sky and of facets that reaches these; NULL: as
  *   closed
- * light: (facets, 2, sample_count): incident_light */
+ * light: (facets, LIGHT_ROWS, sample_count) */
 kernel void interreflection(const radiometry_record frame, global const hit_record *hit,
                             global const facet_record *facets,
                             global const material_record *materials,
@@ -24,15 +24,17 @@ kernel void interreflection(const radiometry_record frame, global const hit_reco
     const facet_record own = facets[facet];
     const material_record material = materials[own.material];
     const float share = facet_background[facet].shape_factor;
-    const lookup at_sun =
-        lookup_emissivity(material, pixel_angle_deg(fabs(pixel_dot(own.normal, frame.sun))), 0u);
-    global float *lobe = light + (size_t)facet * 2u * row, *extra = lobe + row;
+    const float facing_sun = fabs(pixel_dot(own.normal, frame.sun));
+    const lookup at_sun = lookup_emissivity(material, pixel_angle_deg(facing_sun), 0u);
+    global float *to = light + (size_t)facet * LIGHT_ROWS * row;
 
     for (uint block = 0; block < row / SPECTRUM_WIDTH; block++) {
         const spectrum black = planck_radiance(
             spectrum_load(spectra + SPECTRA_PLANCK_FIRST * row, block),
             spectrum_load(spectra + SPECTRA_PLANCK_SECOND * row, block), temperature_k[facet]);
+        const spectrum sun = spectrum_load(spectra + SPECTRA_SUN * row, block);
         const spectrum sky = spectrum_load(spectra + SPECTRA_SKY * row, block);
+        const spectrum closed = radiance_from_above(share, sky, black);
         spectrum of_sun = (spectrum)1.0f, more = (spectrum)0.0f;
         if (material.lobe_first != RECORD_NONE)
             of_sun =
@@ -40,10 +42,12 @@ kernel void interreflection(const radiometry_record frame, global const hit_reco
                              spectrum_load(emissivity + (size_t)material.lobe_first * row, block));
         if (arriving) {
             global const float *from_sky = arriving + (size_t)i * 2u * row;
-            more = spectrum_load(from_sky, block) + spectrum_load(from_sky + row, block) -
-                   radiance_from_above(share, sky, black);
+            more = spectrum_load(from_sky, block) + spectrum_load(from_sky + row, block) - closed;
         }
-        spectrum_store(of_sun, lobe, block);
-        spectrum_store(more, extra, block);
+        spectrum_store(of_sun, to + LIGHT_LOBE * row, block);
+        spectrum_store(more, to + LIGHT_EXTRA * row, block);
+        spectrum_store(closed + more, to + LIGHT_ARRIVING * row, block);
+        spectrum_store(sun_on_surface(sun, 1.0f, facing_sun) * of_sun, to + LIGHT_SUN * row, block);
+        spectrum_store(black, to + LIGHT_BLACK * row, block);
     }
 }

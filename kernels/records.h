@@ -206,10 +206,26 @@ RECORD_SIZE(air_record, 192);
 /* Directions of the sky, times rings of lobes, that one surface can count. */
 #define INCIDENT_WEIGHTS 1024u
 
+/* Rows of the sky's dome, points of a quadrature: direction (3), solid angle, sr; the four directions of
+ * the table around each, and their shares. */
+#define DOME_SOLID_ANGLE 3u
+#define DOME_CORNERS 4u
+#define DOME_ROWS 12u
+
+/* Rows of a facet's light, see interreflection.cl: its lobe of the sun, radiance beyond the closure; and
+ * what reaches it but for the sun, what the sun adds where it shines, a black body's radiance. */
+#define LIGHT_LOBE 0u
+#define LIGHT_EXTRA 1u
+#define LIGHT_ARRIVING 2u
+#define LIGHT_SUN 3u
+#define LIGHT_BLACK 4u
+#define LIGHT_ROWS 5u
+
 /* How radiance that reaches surfaces is summed up, see incident.cl. */
 typedef struct incident_record {
-    uint cell_count;   /* of the hemisphere */
-    uint dome_count;   /* points of the sky */
+    uint cell_count; /* of the hemisphere */
+    uint
+        dome_count; /* points of the sky, a multiple of 16; what is past the last has no solid angle */
     uint ring_count;   /* rings of diffuse lobes; divides the rings of cells */
     uint light_length; /* floats of a row of the facets' light */
     uint

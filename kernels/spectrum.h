@@ -27,6 +27,15 @@ static inline void spectrum_store(spectrum s, global float *row, uint block)
     vstore16(s, block, row);
 }
 
+static inline float spectrum_sum(spectrum s)
+{
+    const float8 eight = s.lo + s.hi;
+    const float4 four = eight.lo + eight.hi;
+    const float2 two = four.lo + four.hi;
+
+    return two.x + two.y;
+}
+
 /* Turns 16 spectra of 16 samples into what they have at each sample. Each pass turns the number of
  * a row and its place in it, as 8 bits, by one bit. */
 static inline void spectrum_turn(const spectrum *from, spectrum *out)

@@ -12,49 +12,47 @@ typedef struct around {
     global const material_record *materials;
     global const float *temperature_k;
     global const background_record *facet_background;
-    global const float *light; /* shape (facets, 2, how.light_length): incident_light */
+    global const float *light; /* shape (facets, LIGHT_ROWS, how.light_length) */
     incident_record how;
 } around;
 
+/* Light of a facet for a block of the pixels' samples. */
 static inline incident_light light_of(around from, uint facet, uint block)
 {
-    global const float *lobe = from.light + (size_t)facet * 2u * from.how.light_length;
-    global const float *extra = lobe + from.how.light_length;
+    const uint length = from.how.light_length;
+    global const float *light = from.light + (size_t)facet * LIGHT_ROWS * length + block;
 
-    if (from.how.is_of_facets)
-        return (incident_light){spectrum_load(lobe, block), spectrum_load(extra, block)};
-    return (incident_light){(spectrum)lobe[block], (spectrum)extra[block]};
+    return (incident_light){(spectrum)light[LIGHT_LOBE * length],
+                            (spectrum)light[LIGHT_EXTRA * length]};
 }
 
-/* A facet seen from a point along a unit direction, without its emissivity.
- *   out_cosine   of the angle from its normal to the ray */
+/* A side of a facet without its emissivity.
+ *   is_back   1: the side that its normal does not leave */
 static inline incident_facet see_face(around from, radiometry_record frame, uint facet,
-                                      float weight, float lit, const float *direction,
-                                      float *out_cosine)
+                                      float weight, float lit, uint is_back)
 {
-    const facet_record seen = from.facets[facet];
-    const float along = -pixel_dot(seen.normal, direction);
-    const float facing = along < 0.0f ? -1.0f : 1.0f;
+    const facet_record own = from.facets[facet];
+    const float facing = is_back ? -1.0f : 1.0f;
     incident_facet out;
 
     out.facet = facet;
     out.weight = weight;
     out.temperature_k = from.temperature_k[facet];
-    out.sun = lit * fmax(facing * pixel_dot(seen.normal, frame.sun), 0.0f);
+    out.sun = lit * fmax(facing * pixel_dot(own.normal, frame.sun), 0.0f);
     out.shape_factor = from.facet_background[facet].shape_factor;
-    *out_cosine = fabs(along);
     return out;
 }
 
-/* The same with its emissivity. */
+/* A facet seen from a point along a unit direction. */
 static inline incident_facet see_facet(around from, radiometry_record frame, uint facet,
                                        float weight, float lit, const float *direction)
 {
-    float cosine;
-    incident_facet out = see_face(from, frame, facet, weight, lit, direction, &cosine);
+    const facet_record seen = from.facets[facet];
+    const float along = pixel_dot(seen.normal, direction);
+    incident_facet out = see_face(from, frame, facet, weight, lit, along > 0.0f);
 
     out.emissivity =
-        lookup_emissivity(from.materials[from.facets[facet].material], pixel_angle_deg(cosine), 0u);
+        lookup_emissivity(from.materials[seen.material], pixel_angle_deg(fabs(along)), 0u);
     return out;
 }
 

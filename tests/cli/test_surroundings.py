@@ -91,6 +91,15 @@ def test_a_room_under_a_sky_of_its_temperature_is_invisible(program, radiance, t
     assert got.planes["radiance_lwir"] == pytest.approx(expected, rel=BAND)
 
 
+def test_nothing_of_the_sky_comes_into_a_closed_room(program, tmp_path):
+    got = program.render(tmp_path, "--planes", "reflected_sky_lwir", meshes={"room.obj": ROOM},
+                         geometry=[{"file": "room.obj"}],
+                         material=materials([0.3] * 6, [300.0] * 6), camera=INSIDE,
+                         atmosphere=sky(program, sky_radiance_w_m2_sr_um=4.0))
+
+    assert (got.planes["reflected_sky_lwir"] == 0).all()  # exactly, by the sum's order
+
+
 def canyon(program, folder, *options, emissivity=(0.4, 1.0, 1.0, 1.0, 1.0, 1.0), east_k=350.0,
            west_k=250.0, **changes):
     walls = materials(emissivity, [1.0, 1.0, 1.0, east_k, 1.0, west_k])
