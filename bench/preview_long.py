@@ -17,7 +17,7 @@ SCENE = ROOT / "scenes/airport/scene.toml"
 GIVE_BACK = {"MALLOC_ARENA_MAX": "1", "MALLOC_MMAP_THRESHOLD_": "65536", "MALLOC_TRIM_THRESHOLD_": "65536"}
 # What a build with sanitizers needs for it: the libraries' own leaks are known, little is held back.
 SANITIZED = {"LSAN_OPTIONS": f"print_suppressions=0:suppressions={ROOT}/tests/sanitizer.supp",
-             "ASAN_OPTIONS": "quarantine_size_mb=4"}
+             "ASAN_OPTIONS": "quarantine_size_mb=4:use_sigaltstack=0"}
 GROWTH_MB = 16  # between the first round after WARM_SHARE of the time, and the last
 WARM_SHARE = 0.2
 

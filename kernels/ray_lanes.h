@@ -113,12 +113,12 @@ static inline void ray_lanes_set_bounds(ray_lanes *f, const float16 o[3])
 {
     const float16 all[8] = {o[0], o[1], o[2], f->reciprocal[0], f->reciprocal[1], f->reciprocal[2],
                             0,    0};
-    float16 negative[8];
+    float16 reversed[8];
     float low[8], high[8];
 
     UNROLL
-    for (int i = 0; i < 8; i++) negative[i] = -all[i];
-    const float8 lowest = ray_lanes_lowest(all), highest = -ray_lanes_lowest(negative);
+    for (int i = 0; i < 8; i++) reversed[i] = -all[i];
+    const float8 lowest = ray_lanes_lowest(all), highest = -ray_lanes_lowest(reversed);
     const float8 reach = ray_most(-lowest, highest);
     const float reach_xy = reach.s0 > reach.s1 ? reach.s0 : reach.s1;
     const float pad = 2.0f * 4.76837158203125e-7f * (reach_xy > reach.s2 ? reach_xy : reach.s2);

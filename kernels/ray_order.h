@@ -125,11 +125,12 @@ static inline ray_packet ray_order_load(const world_record *world, global const 
 #if RAY_LANES == 16
     if (sorted) return ray_order_load_sorted(world, rays, stride, vload16(0, order + at));
 #endif
-    if (count == RAY_LANES) return ray_packet_load(world, rays + at, stride);
+    if (!sorted && count == RAY_LANES) return ray_packet_load(world, rays + at, stride);
     ray_packet_clear(&p, world);
     p.alive = (1u << count) - 1;
     for (uint i = 0; i < RAY_LANES && count > 0; i++) {
-        const size_t from = at + (i < count ? i : 0);
+        const uint place = at + (i < count ? i : 0);
+        const size_t from = sorted ? order[place] : place;
         UNROLL
         for (uint k = 0; k < 3; k++) {
             p.origin[k][i] = rays[(size_t)k * stride + from];

@@ -39,7 +39,7 @@ class Person:
         self.folder = folder
         # GLX's driver is unloaded before leaks are looked for, and then has no name that could be
         # suppressed: leaks are looked for by the tests without a window.
-        self.environment = {**preview.environment(), "ASAN_OPTIONS": "detect_leaks=0",
+        self.environment = {**preview.environment(), "ASAN_OPTIONS": "detect_leaks=0:use_sigaltstack=0",
                             "DISPLAY": ":" + self.screen.stdout.readline().strip()}
         state_density(self.environment["DISPLAY"], dots_per_inch)
         self.program = subprocess.Popen([preview.radsig, "view", scene, "--size", size], cwd=folder,
