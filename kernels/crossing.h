@@ -58,7 +58,7 @@ static inline void crossing_leaf(const ray_frame *f, global const bvh_block *blo
                                  global const uint *medium, const uint leaf, const float limit,
                                  crossing_sum *sum)
 {
-    const uint first = (leaf & ~BVH_LEAF) >> 4, count = leaf & 15;
+    const uint first = ray_block_of(leaf), count = leaf & 15;
 
     for (uint b = first; b < first + count; b++) {
         float8 range;

@@ -129,15 +129,20 @@ static inline uint ray_meets(const ray_frame *f, global const bvh_block *block, 
     return ray_mask((front | back) & (range > 0.0f) & (range <= limit));
 }
 
+/* The first block of a leaf. */
+static inline uint ray_block_of(const uint leaf)
+{
+    return (leaf & ~BVH_LEAF) >> 4;
+}
+
 /* Asks for the memory of a child that will soon be visited: the five lines of a block, or the four of a
  * node and one more. */
 static inline void ray_fetch(global const bvh_node *nodes, global const bvh_block *blocks,
                              const uint word)
 {
 #if defined(__AVX__) && !defined(RAY_PORTABLE)
-    global const char *at = word & BVH_LEAF
-                                ? (global const char *)(blocks + ((word & ~BVH_LEAF) >> 4))
-                                : (global const char *)(nodes + word);
+    global const char *at = word & BVH_LEAF ? (global const char *)(blocks + ray_block_of(word))
+                                            : (global const char *)(nodes + word);
     UNROLL
     for (int line = 0; line < 5; line++) __builtin_prefetch((const void *)(size_t)(at + 64 * line));
 #else
@@ -180,7 +185,7 @@ static inline uint ray_pop(const ulong *stack, uint *depth, const float limit)
 static inline void ray_visit_leaf(const ray_frame *f, global const bvh_block *blocks,
                                   const uint leaf, const float limit, ray_hit *hit)
 {
-    const uint first = (leaf & ~BVH_LEAF) >> 4, count = leaf & 15;
+    const uint first = ray_block_of(leaf), count = leaf & 15;
 
     for (uint b = first; b < first + count; b++) {
         float8 range;
@@ -256,7 +261,7 @@ static inline uint ray_any_below(const ray_frame *f, global const bvh_node *node
         const uint word = stack[--depth];
         float8 range;
         if (word & BVH_LEAF) {
-            const uint first = (word & ~BVH_LEAF) >> 4, count = word & 15;
+            const uint first = ray_block_of(word), count = word & 15;
             for (uint b = first; b < first + count; b++)
                 if (ray_meets(f, blocks + b, limit, &range)) return 1;
             continue;

@@ -174,11 +174,10 @@ static inline ray_lanes ray_lanes_of(const float origin[3][16], const float dire
     return f;
 }
 
-/* Finds the children that a ray of the packet may enter before `limit`: a bit each. */
-static inline uint ray_lanes_reach(const ray_lanes *f, global const bvh_node *node,
-                                   const float limit)
+/* Finds the children that a ray of the packet may enter: a bit each. */
+static inline uint ray_lanes_reach(const ray_lanes *f, global const bvh_node *node)
 {
-    float8 from = 0, to = limit;
+    float8 from = 0, to = MAXFLOAT;
 
     UNROLL
     for (int k = 0; k < 3; k++) {

@@ -50,7 +50,7 @@ INLINE void ray_leaf_closest(const ray_lanes *f, global const bvh_block *blocks,
                              const uint axis, const int16 active, const uint rays,
                              ray_leaf_nearest *best)
 {
-    const uint b = (leaf & ~BVH_LEAF) >> 4;
+    const uint b = ray_block_of(leaf);
 
     for (uint i = 0; i < 8 && blocks[b].facet[i] != RECORD_NONE; i += 2) {
         ray_lanes_edges e[2];
@@ -71,7 +71,7 @@ INLINE void ray_leaf_closest(const ray_lanes *f, global const bvh_block *blocks,
 INLINE uint ray_leaf_any(const ray_lanes *f, global const bvh_block *blocks, const uint leaf,
                          const uint axis)
 {
-    global const bvh_block *block = blocks + ((leaf & ~BVH_LEAF) >> 4);
+    global const bvh_block *block = blocks + ray_block_of(leaf);
     int16 met = 0;
 
     for (uint i = 0; i < 8 && block->facet[i] != RECORD_NONE; i++) {
@@ -87,7 +87,7 @@ INLINE void ray_leaf_closest_two(const ray_lanes *f, global const bvh_block *blo
                                  const uint leaf, const uint axis, uint rays,
                                  ray_leaf_nearest *best)
 {
-    const uint b = (leaf & ~BVH_LEAF) >> 4;
+    const uint b = ray_block_of(leaf);
     const ray_leaf_nearest before = *best;
 
     while (rays) {
@@ -114,7 +114,7 @@ INLINE void ray_leaf_closest_two(const ray_lanes *f, global const bvh_block *blo
 INLINE uint ray_leaf_any_two(const ray_lanes *f, global const bvh_block *blocks, const uint leaf,
                              const uint axis, uint rays)
 {
-    global const bvh_block *block = blocks + ((leaf & ~BVH_LEAF) >> 4);
+    global const bvh_block *block = blocks + ray_block_of(leaf);
     uint met = 0;
 
     while (rays) {

@@ -78,7 +78,8 @@ static inline uint ray_order_of(global const float *direction, const uint stride
 {
     (void)direction;
     (void)stride;
-    for (uint i = 0; i < count; i++) order[i] = 0;
+    (void)count;
+    (void)order;
     return 0;
 }
 
@@ -124,13 +125,15 @@ static inline ray_packet ray_order_load(const world_record *world, global const 
 
 #if RAY_LANES == 16
     if (sorted) return ray_order_load_sorted(world, rays, stride, vload16(0, order + at));
+#else
+    (void)sorted;
+    (void)order;
 #endif
-    if (!sorted && count == RAY_LANES) return ray_packet_load(world, rays + at, stride);
+    if (count == RAY_LANES) return ray_packet_load(world, rays + at, stride);
     ray_packet_clear(&p, world);
     p.alive = (1u << count) - 1;
     for (uint i = 0; i < RAY_LANES && count > 0; i++) {
-        const uint place = at + (i < count ? i : 0);
-        const size_t from = sorted ? order[place] : place;
+        const size_t from = at + (i < count ? i : 0);
         UNROLL
         for (uint k = 0; k < 3; k++) {
             p.origin[k][i] = rays[(size_t)k * stride + from];

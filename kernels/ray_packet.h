@@ -173,7 +173,7 @@ INLINE uint ray_packet_open(const ray_lanes *f, global const bvh_node *nodes,
 {
     global const bvh_node *node = nodes + word;
     const uint order = node->order[f->octant];
-    const uint mask = coherent ? ray_lanes_reach(f, node, MAXFLOAT) : 0xff;
+    const uint mask = coherent ? ray_lanes_reach(f, node) : 0xff;
 
     UNROLL
     for (int i = 28; i >= 0; i -= 4) {
@@ -232,7 +232,7 @@ INLINE uint ray_packet_open_any(const ray_lanes *f, global const bvh_node *nodes
                                 const uint coherent, const uint active, ulong *stack, uint depth)
 {
     global const bvh_node *node = nodes + word;
-    uint mask = coherent ? ray_lanes_reach(f, node, MAXFLOAT) : 0xff;
+    uint mask = coherent ? ray_lanes_reach(f, node) : 0xff;
 
     while (mask) {
         const uint child = ray_lanes_next(&mask);

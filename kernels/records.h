@@ -223,9 +223,8 @@ RECORD_SIZE(air_record, 192);
 
 /* How radiance that reaches surfaces is summed up, see incident.cl. */
 typedef struct incident_record {
-    uint cell_count; /* of the hemisphere */
-    uint
-        dome_count; /* points of the sky, a multiple of 16; what is past the last has no solid angle */
+    uint cell_count;   /* of the hemisphere */
+    uint dome_count;   /* points of the sky, a multiple of 16: those that pad have no solid angle */
     uint ring_count;   /* rings of diffuse lobes; divides the rings of cells */
     uint light_length; /* floats of a row of the facets' light */
     uint
