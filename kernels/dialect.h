@@ -6,6 +6,10 @@
 #ifdef __OPENCL_C_VERSION__
 
 #pragma OPENCL FP_CONTRACT OFF
+#ifdef __clang__
+/* Vectors of 16 go through functions of this program alone: another ABI than other CPUs' does no harm. */
+#pragma clang diagnostic ignored "-Wpsabi"
+#endif
 /* Before a loop of few steps: PoCL unrolls none unasked, and what a loop indexes stays in memory. */
 #define UNROLL _Pragma("unroll")
 /* Before a function that gets code of its own for every constant it is called with, or does less than
