@@ -149,14 +149,14 @@ static status run_bodies(const incident *in, const incident_pixels *p, device_me
     const device_memory body_blocks = bodies_blocks(p->bodies);
     const device_memory medium = bodies_medium(p->bodies), levels = bodies_levels(p->bodies);
 
-    return device_run(ray_scene_device(in->scene), "incident_bodies", shape1(p->frame.pixel_count),
-                      ARG(p->frame), ARG(p->camera), ARG(how), ARG(cell), ARG(world),
-                      ARG(bodies_around), ARG(nodes), ARG(blocks), ARG(body_nodes),
-                      ARG(body_blocks), ARG(medium), ARG(levels), ARG(in->tables.facet),
-                      ARG(in->tables.material), ARG(in->tables.temperature_k),
-                      ARG(p->facet_background), ARG(p->light), ARG(p->points.hit),
-                      ARG(p->background), ARG(p->background_lit), ARG(p->points.met), ARG(p->gloss),
-                      ARG(p->spectra), ARG(p->emissivity), ARG(p->extinction), ARG(out));
+    return device_run(
+        ray_scene_device(in->scene), "incident_bodies", shape1(p->frame.pixel_count), ARG(p->frame),
+        ARG(p->camera), ARG(how), ARG(cell), ARG(world), ARG(bodies_around), ARG(nodes),
+        ARG(blocks), ARG(body_nodes), ARG(body_blocks), ARG(medium), ARG(levels),
+        ARG(in->tables.facet), ARG(in->tables.material), ARG(in->tables.temperature_k),
+        ARG(p->facet_background), ARG(p->light), ARG(p->points.hit), ARG(p->points.order),
+        ARG(p->background), ARG(p->background_lit), ARG(p->points.met), ARG(p->gloss),
+        ARG(p->spectra), ARG(p->emissivity), ARG(p->extinction), ARG(out));
 }
 
 status incident_run(const incident *in, const incident_pixels *p, device_memory out)
@@ -167,12 +167,12 @@ status incident_run(const incident *in, const incident_pixels *p, device_memory 
     const uint32_t groups = (p->frame.pixel_count + PIXELS_AT_ONCE - 1) / PIXELS_AT_ONCE;
     const device_shape shape = {{groups, 1}, 4};
 
-    TRY(device_run(ray_scene_device(in->scene), "incident", shape, ARG(p->frame), ARG(p->camera),
-                   ARG(how), ARG(cell), ARG(in->dome), ARG(in->tables.facet),
-                   ARG(in->tables.material), ARG(in->tables.temperature_k),
-                   ARG(p->facet_background), ARG(p->light), ARG(p->points.hit), ARG(p->background),
-                   ARG(p->background_lit), ARG(p->points.met), ARG(p->gloss), ARG(p->spectra),
-                   ARG(p->emissivity), ARG(out)));
+    TRY(device_run(
+        ray_scene_device(in->scene), "incident", shape, ARG(p->frame), ARG(p->camera), ARG(how),
+        ARG(cell), ARG(in->dome), ARG(in->tables.facet), ARG(in->tables.material),
+        ARG(in->tables.temperature_k), ARG(p->facet_background), ARG(p->light), ARG(p->points.hit),
+        ARG(p->points.order), ARG(p->background), ARG(p->background_lit), ARG(p->points.met),
+        ARG(p->gloss), ARG(p->spectra), ARG(p->emissivity), ARG(out)));
     if (p->bodies) TRY(run_bodies(in, p, out));
 out:
     return rc;

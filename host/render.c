@@ -80,12 +80,28 @@ out:
     return rc;
 }
 
+static status open_hemispheres(render *r)
+{
+    status rc = STATUS_OK;
+    const scene *s = r->shared.s;
+    device *dev = r->shared.dev;
+    const shape_factor_reading reading = s->thesis ? SHAPE_FACTOR_THESIS : SHAPE_FACTOR_COSINE;
+
+    TRY(shape_factor_open(&r->shared.grid, dev, reading, s->hemisphere_zenith_step_deg,
+                          s->hemisphere_azimuth_step_deg));
+    /* A pixel gets the mean of many facets, and reflects what they reflect: few rays each will do. */
+    TRY(shape_factor_open_thinned(&r->shared.facet_grid, dev, r->shared.grid));
+    TRY(shape_factor_open(&r->shared.coarse_grid, dev, reading, coarse_zenith_step_deg,
+                          coarse_azimuth_step_deg));
+out:
+    return rc;
+}
+
 static status open_rays(render *r)
 {
     status rc = STATUS_OK;
     const scene *s = r->shared.s;
     const geometry *g = s->shape;
-    const shape_factor_reading reading = s->thesis ? SHAPE_FACTOR_THESIS : SHAPE_FACTOR_COSINE;
     bvh *tree = NULL;
 
     TRY(bodies_open(&r->shared.bodies, r->shared.dev, s));
@@ -97,10 +113,7 @@ static status open_rays(render *r)
     if (s->ground_material != RECORD_NONE)
         ray_scene_set_ground(r->shared.rays, g->facet_count,
                              (float)(s->ground_z_m - g->origin_m[2]));
-    TRY(shape_factor_open(&r->shared.grid, r->shared.dev, reading, s->hemisphere_zenith_step_deg,
-                          s->hemisphere_azimuth_step_deg));
-    TRY(shape_factor_open(&r->shared.coarse_grid, r->shared.dev, reading, coarse_zenith_step_deg,
-                          coarse_azimuth_step_deg));
+    TRY(open_hemispheres(r));
     end_stage(r, "tree");
 out:
     bvh_free(tree);
@@ -144,17 +157,29 @@ static status open_incident(render *r)
     const shape_factor_tables tables = {r->shared.tables.facets,
                                         temperature_of_facets(r->shared.warmth),
                                         r->shared.tables.materials};
+    const uint32_t rings = scene_lobe_rings(r->shared.s);
 
-    TRY(incident_open(&r->shared.around, r->shared.rays, r->shared.grid, &tables,
-                      scene_lobe_rings(r->shared.s), &r->shared.frame));
-    const interreflection_scene from = {r->shared.around, r->shared.rays, r->shared.grid,
-                                        r->shared.s->shape, tables};
+    TRY(incident_open(&r->shared.around, r->shared.rays, r->shared.grid, &tables, rings,
+                      &r->shared.frame));
+    TRY(incident_open(&r->shared.facet_around, r->shared.rays, r->shared.facet_grid, &tables, rings,
+                      &r->shared.frame));
+    const interreflection_scene from = {r->shared.facet_around, r->shared.rays,
+                                        r->shared.facet_grid, r->shared.s->shape, tables};
     TRY(interreflection_open(&r->shared.lights, &from, r->shared.tables.reflectance,
                              r->shared.s->depth, &r->shared.tables.blocks, r->shared.frame.sun));
     TRY(interreflection_set_sun(r->shared.lights, &r->shared.frame));
     end_stage(r, "light between facets");
 out:
     return rc;
+}
+
+static void free_incident(render *r)
+{
+    interreflection_free(r->shared.lights);
+    incident_free(r->shared.facet_around);
+    incident_free(r->shared.around);
+    r->shared.lights = NULL;
+    r->shared.facet_around = r->shared.around = NULL;
 }
 
 render_look render_stated_look(const scene *s)
@@ -220,11 +245,8 @@ status render_move(render *r, const scene *s)
     r->stage_start_s = clock_now_s();
     render_tile_free(&r->tile);
     r->shared.s = s;
-    interreflection_free(r->shared.lights);
-    incident_free(r->shared.around);
+    free_incident(r);
     temperature_free(r->shared.warmth);
-    r->shared.lights = NULL;
-    r->shared.around = NULL;
     r->shared.warmth = NULL;
     TRY(set_temperatures(r));
     render_change_look(r, &look);
@@ -238,11 +260,11 @@ void render_free(render *r)
     if (!r) return;
     render_tile_free(&r->tile);
     free(r->planes);
-    interreflection_free(r->shared.lights);
-    incident_free(r->shared.around);
+    free_incident(r);
     temperature_free(r->shared.warmth);
     render_tables_free(&r->shared.tables);
     shape_factor_free(r->shared.coarse_grid);
+    shape_factor_free(r->shared.facet_grid);
     shape_factor_free(r->shared.grid);
     bodies_free(r->shared.bodies);
     ray_scene_free(r->shared.rays);

@@ -3,6 +3,7 @@
 #include "../kernels/band_plane.h"
 #include "../kernels/lobe.h"
 
+#include "point_order.h"
 #include "sunlight.h"
 
 #include <string.h>
@@ -100,7 +101,9 @@ static status allocate(render_tile_memory *t, const render_shared *r)
     status rc = STATUS_OK;
     const size_t n = t->room;
 
+    TRY(device_allocate(r->dev, &t->hit, n * sizeof(hit_record), NULL));
     TRY(device_allocate(r->dev, &t->points.hit, n * sizeof(hit_record), NULL));
+    TRY(device_allocate(r->dev, &t->points.order, n * sizeof(uint32_t), NULL));
     TRY(device_allocate(r->dev, &t->points.met,
                         n * shape_factor_cell_count(r->grid) * sizeof(uint32_t), NULL));
     TRY(device_allocate(r->dev, &t->lit, n * sizeof(float), NULL));
@@ -164,7 +167,9 @@ void render_tile_free(render_tile_memory *t)
     device_release(t->history);
     device_release(t->lit);
     device_release(t->points.met);
+    device_release(t->points.order);
     device_release(t->points.hit);
+    device_release(t->hit);
     *t = (render_tile_memory){0};
 }
 
@@ -177,14 +182,14 @@ static status trace(const render_tile_memory *t, const render_shared *r)
     const device_memory nodes = ray_scene_nodes(r->rays), blocks = ray_scene_blocks(r->rays);
     const world_record world = ray_scene_world(r->rays);
 
-    TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count,
-                          t->points.hit));
-    TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->points.hit, t->lit));
+    TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count, t->hit));
+    TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->hit, t->lit));
+    TRY(point_order_run(r->dev, t->hit, r->tables.facet, t->count, t->points.order, t->points.hit));
     TRY(shape_factor_run(r->is_coarse ? r->coarse_grid : r->grid, r->rays, &tables,
                          has_incident(r) ? r->frame.sun : NULL, &t->points, t->background));
     TRY(device_run(r->dev, "mirror", shape1(t->count), ARG(t->count), ARG(r->camera), ARG(world),
                    ARG(nodes), ARG(blocks), ARG(r->tables.facets), ARG(facet_k),
-                   ARG(r->tables.materials), ARG(t->points.hit), ARG(t->background)));
+                   ARG(r->tables.materials), ARG(t->hit), ARG(t->background)));
     TRY(device_run(r->dev, "background_hit", shape1(t->count), ARG(t->count), ARG(t->background),
                    ARG(t->background_hit)));
     TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->background_hit, t->background_lit));
@@ -209,9 +214,9 @@ static status cross_bodies(const render_tile_memory *t, const render_shared *r,
                        ARG(r->tables.spectrum_rows), ARG(r->tables.emissivity_rows),
                        ARG(r->tables.extinction_rows)));
     TRY(device_run(r->dev, "crossing", shape1(t->count), ARG(*frame), ARG(r->camera), ARG(world),
-                   ARG(around), ARG(nodes), ARG(blocks), ARG(medium), ARG(levels),
-                   ARG(t->points.hit), ARG(t->background_hit), ARG(t->lit), ARG(t->background_lit),
-                   ARG(t->body_paths), ARG(t->direct), ARG(t->background_direct)));
+                   ARG(around), ARG(nodes), ARG(blocks), ARG(medium), ARG(levels), ARG(t->hit),
+                   ARG(t->background_hit), ARG(t->lit), ARG(t->background_lit), ARG(t->body_paths),
+                   ARG(t->direct), ARG(t->background_direct)));
 out:
     return rc;
 }
@@ -225,7 +230,7 @@ static status cast_gloss(const render_tile_memory *t, const render_shared *r,
 
     return device_run(r->dev, "gloss", shape2(t->count, LOBE_RAYS), ARG(*frame), ARG(r->camera),
                       ARG(world), ARG(nodes), ARG(blocks), ARG(r->tables.facets),
-                      ARG(r->tables.materials), ARG(t->points.hit), ARG(t->gloss));
+                      ARG(r->tables.materials), ARG(t->hit), ARG(t->gloss));
 }
 
 /* Spectra, and the planes of the bands from them. */
@@ -242,7 +247,7 @@ static status integrate(const render_tile_memory *t, const render_shared *r,
         const device_shape shape = {{some, 1}, GROUPS_TOGETHER};
         TRY(device_run(r->dev, "radiometry", shape, ARG(frame), ARG(r->air), ARG(r->camera),
                        ARG(r->tables.facets), ARG(r->tables.materials), ARG(t->temperature_k),
-                       ARG(t->points.hit), ARG(t->background), ARG(t->lit), ARG(t->background_lit),
+                       ARG(t->hit), ARG(t->background), ARG(t->lit), ARG(t->background_lit),
                        ARG(r->tables.spectrum_rows), ARG(r->tables.emissivity_rows),
                        ARG(t->incident), ARG(r->tables.extinction_rows), ARG(t->body_paths),
                        ARG(t->emissivities), ARG(t->terms)));
@@ -268,8 +273,8 @@ static status colour(const render_tile_memory *t, const render_shared *r)
     const device_memory behind = r->bodies ? t->background_direct : t->background_lit;
     TRY(device_run(r->dev, "truth", shape1(t->count), ARG(frame), ARG(r->camera),
                    ARG(r->tables.facets), ARG(r->tables.facet_ids), ARG(r->tables.materials),
-                   ARG(t->temperature_k), ARG(t->points.hit), ARG(t->background), ARG(direct),
-                   ARG(behind), ARG(t->truth_planes)));
+                   ARG(t->temperature_k), ARG(t->hit), ARG(t->background), ARG(direct), ARG(behind),
+                   ARG(t->truth_planes)));
     if (has_incident(r)) {
         TRY(interreflection_set_sun(r->lights, &r->frame));
         if (t->gloss) TRY(cast_gloss(t, r, &frame));
@@ -301,11 +306,11 @@ status render_tile_compute(const render_tile_memory *t, const render_shared *r)
 
     TRY(trace(t, r));
     if (r->is_coarse)
-        TRY(temperature_of_hits(r->warmth, t->count, t->points.hit, TRUTH_PLANES, t->temperature_k,
+        TRY(temperature_of_hits(r->warmth, t->count, t->hit, TRUTH_PLANES, t->temperature_k,
                                 t->truth_planes));
     else
-        TRY(temperature_of_pixels(r->warmth, r->rays, t->count, t->points.hit, TRUTH_PLANES,
-                                  t->history, t->temperature_k, t->truth_planes));
+        TRY(temperature_of_pixels(r->warmth, r->rays, t->count, t->hit, TRUTH_PLANES, t->history,
+                                  t->temperature_k, t->truth_planes));
     TRY(colour(t, r));
 out:
     return rc;

@@ -15,11 +15,12 @@ typedef struct render_shared {
     device *dev;
     ray_scene *rays;
     bodies *bodies; /* NULL: none */
-    shape_factor_grid *grid, *coarse_grid;
+    shape_factor_grid *grid, *facet_grid, *coarse_grid;
     bool is_coarse;
     temperature *warmth;
     render_tables tables;
     incident *around;        /* NULL: thesis mode */
+    incident *facet_around;  /* the same */
     interreflection *lights; /* the same */
     radiometry_record frame;
     air_record air;
@@ -31,7 +32,8 @@ typedef struct render_tile_memory {
     uint32_t first, count;
     uint32_t room, samples; /* that there is memory for; of a pixel */
     bool is_coarse;
-    shape_factor_points points;
+    device_memory hit;
+    shape_factor_points points; /* the same hits, in an order of their own */
     device_memory lit, history, temperature_k, background, background_hit, background_lit;
     device_memory gloss;    /* exact mode with rough materials: see gloss.cl */
     device_memory incident; /* exact mode: spectra, shape (count, 2, samples) */

@@ -7,11 +7,14 @@
 /* Cells of a work-item that has packets of rays, see kernels/hemisphere.cl. */
 enum { CELL_LIMIT = 1 << 22, CELLS_AT_ONCE = 72 };
 
+/* Of a ring's cells one of so many stays when they are thinned, but no fewer than these. */
+enum { THIN = 3, THINNED_LEAST = 4 };
+
 static const double radian = 0.017453292519943295;
 
 struct shape_factor_grid {
     device_memory cell; /* shape (cell_count, 4): upslope, across, normal, weight */
-    uint32_t cell_count;
+    uint32_t cell_count, azimuths;
 };
 
 status shape_factor_read_name(shape_factor_reading *out, const char *name)
@@ -110,6 +113,7 @@ status shape_factor_open(shape_factor_grid **out, device *dev, shape_factor_read
     NEED(grid, STATUS_MEMORY, "no memory for a hemisphere");
     TRY(count_cells(&rings, &azimuths, zenith_step_deg, azimuth_step_deg));
     grid->cell_count = rings * azimuths;
+    grid->azimuths = azimuths;
     cell = malloc(grid->cell_count * sizeof *cell);
     NEED(cell, STATUS_MEMORY, "no memory for a hemisphere of %u cells", grid->cell_count);
     fill_cells(cell, reading, rings, azimuths);
@@ -129,8 +133,9 @@ uint32_t shape_factor_part_of(uint32_t cell, uint32_t parts)
     return (cell * golden >> 16) * parts >> 16;
 }
 
-status shape_factor_open_part(shape_factor_grid **out, device *dev, const shape_factor_grid *grid,
-                              uint32_t part, uint32_t parts)
+/* Opens those cells of a grid for which `weighs` is above 0, their weights times that. */
+static status open_some(shape_factor_grid **out, device *dev, const shape_factor_grid *grid,
+                        const float *weighs)
 {
     status rc = STATUS_OK;
     shape_factor_grid *some = calloc(1, sizeof *some);
@@ -138,15 +143,49 @@ status shape_factor_open_part(shape_factor_grid **out, device *dev, const shape_
 
     NEED(some && cell, STATUS_MEMORY, "no memory for a hemisphere");
     TRY(device_download(dev, grid->cell, 0, grid->cell_count * sizeof *cell, cell));
-    for (uint32_t i = 0; i < grid->cell_count; i++)
-        if (shape_factor_part_of(i, parts) == part)
-            memmove(cell[some->cell_count++], cell[i], sizeof *cell);
+    for (uint32_t i = 0; i < grid->cell_count; i++) {
+        if (weighs[i] == 0.0f) continue;
+        memmove(cell[some->cell_count], cell[i], sizeof *cell);
+        cell[some->cell_count++][3] *= weighs[i];
+    }
     TRY(device_allocate(dev, &some->cell, some->cell_count * sizeof *cell, cell));
     *out = some;
     some = NULL;
 out:
     free(cell);
     shape_factor_free(some);
+    return rc;
+}
+
+status shape_factor_open_part(shape_factor_grid **out, device *dev, const shape_factor_grid *grid,
+                              uint32_t part, uint32_t parts)
+{
+    status rc = STATUS_OK;
+    float *weighs = calloc(grid->cell_count, sizeof *weighs);
+
+    NEED(weighs, STATUS_MEMORY, "no memory for a hemisphere");
+    for (uint32_t i = 0; i < grid->cell_count; i++)
+        weighs[i] = shape_factor_part_of(i, parts) == part ? 1.0f : 0.0f;
+    TRY(open_some(out, dev, grid, weighs));
+out:
+    free(weighs);
+    return rc;
+}
+
+status shape_factor_open_thinned(shape_factor_grid **out, device *dev,
+                                 const shape_factor_grid *grid)
+{
+    status rc = STATUS_OK;
+    const uint32_t n = grid->azimuths;
+    const uint32_t step = n % THIN == 0 && n / THIN >= THINNED_LEAST ? THIN : 1;
+    float *weighs = calloc(grid->cell_count, sizeof *weighs);
+
+    NEED(weighs, STATUS_MEMORY, "no memory for a hemisphere");
+    for (uint32_t i = 0; i < grid->cell_count; i++)
+        weighs[i] = (i % n + i / n) % step == 0 ? (float)step : 0.0f;
+    TRY(open_some(out, dev, grid, weighs));
+out:
+    free(weighs);
     return rc;
 }
 
@@ -197,7 +236,7 @@ status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
                    device_ray_shape(ray_scene_device(scene), points->count, 1), ARG(points->count),
                    ARG(grid->cell_count), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
                    ARG(tables->facet), ARG(tables->temperature_k), ARG(tables->material),
-                   ARG(points->hit), ARG(points->met), ARG(out_background)));
+                   ARG(points->hit), ARG(points->met), ARG(points->order), ARG(out_background)));
 out:
     return rc;
 }

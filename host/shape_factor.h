@@ -35,6 +35,12 @@ uint32_t shape_factor_part_of(uint32_t cell, uint32_t parts);
 /* Opens the cells of one part, in their order and with their weights. */
 status shape_factor_open_part(shape_factor_grid **out, device *dev, const shape_factor_grid *grid,
                               uint32_t part, uint32_t parts);
+
+/* Opens every third cell of each ring, those of a ring a cell further on than those of the one below,
+ * with three times their weights: for points of which many go into a mean. The whole grid where that
+ * leaves fewer than four in a ring, or does not go up into the ring's azimuths. */
+status shape_factor_open_thinned(shape_factor_grid **out, device *dev,
+                                 const shape_factor_grid *grid);
 void shape_factor_free(shape_factor_grid *grid);
 
 /* What the rays may meet; all three are read at the ground's facet too. */
@@ -49,6 +55,8 @@ typedef struct shape_factor_points {
     uint32_t count;
     device_memory hit; /* hit_record, shape (count); only point, facet and normal are read */
     device_memory met; /* uint32, shape (shape_factor_cell_count, count): written, hemisphere.cl */
+    device_memory order; /* uint32, shape (count): which point of what is computed each of these is;
+                          * NULL: the same */
 } shape_factor_points;
 
 /* Casts the rays of the hemisphere above every point and tells what they meet; the rest as below. */

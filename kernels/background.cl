@@ -44,13 +44,13 @@ static inline uint commonest(const hemisphere_count *c, global const material_re
 /* Sums up what the rays of the hemisphere met: eq. 2.4.2-6 and the background of 2.4.2.
  * Launch: (count / RAY_LANES, rounded up). cell: (cell_count, 4); facet, temperature_k: per facet,
  * the ground's too; material: per material; hit: (count); met: (cell_count, count) as hemisphere.cl
- * writes it; out: (count). */
+ * writes it; order: (count), which point of out each of these is, NULL: the same; out: (count). */
 kernel void background(const uint count, const uint cell_count, const world_record world,
                        global const bvh_node *nodes, global const bvh_block *blocks,
                        global const float *cell, global const facet_record *facet,
                        global const float *temperature_k, global const material_record *material,
                        global const hit_record *hit, global const uint *met,
-                       global background_record *out)
+                       global const uint *order, global background_record *out)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= count) return;
@@ -75,7 +75,7 @@ kernel void background(const uint count, const uint cell_count, const world_reco
             back.met_count = all[i].met_count;
             ray_packet_set(&packet, i, &r);
         }
-        out[first + i] = back;
+        out[hemisphere_point(order, first + i)] = back;
     }
     if (!packet.alive) return;
     ray_packet_closest(nodes, blocks, &packet, &closest);
@@ -84,8 +84,9 @@ kernel void background(const uint count, const uint cell_count, const world_reco
         const ray r = ray_packet_get(&packet, i);
         const hit_record record =
             hemisphere_record(&r, ray_packet_hit_of(&closest, i), &world, blocks);
-        out[first + i].facet = record.facet;
-        vstore3(vload3(0, record.point), 0, out[first + i].point);
-        vstore3(vload3(0, record.normal), 0, out[first + i].normal);
+        global background_record *back = &out[hemisphere_point(order, first + i)];
+        back->facet = record.facet;
+        vstore3(vload3(0, record.point), 0, back->point);
+        vstore3(vload3(0, record.normal), 0, back->normal);
     }
 }

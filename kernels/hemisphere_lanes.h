@@ -6,6 +6,13 @@
 #include "hemisphere.h"
 #include "lanes.h"
 
+/* Which point stands at a place: points may be looked at in an order of their own.
+ *   order   NULL: they stand as they are */
+static inline uint hemisphere_point(global const uint *order, uint place)
+{
+    return order ? order[place] : place;
+}
+
 typedef struct hemisphere_lanes {
     lanes upslope[3], across[3], normal[3];
 } hemisphere_lanes;

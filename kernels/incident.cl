@@ -22,7 +22,7 @@ static void add_facet(const incident_facet *seen, around from, radiometry_record
 }
 
 /* Writes what arrives from sky, facets and ground at the lanes that reflect diffusely.
- *   out   of the group's first pixel */
+ *   out   of pixel 0 */
 static void write_diffuse(const incident_group *g, const incident_tables *t, global float *out)
 {
     const incident_record how = t->from.how;
@@ -38,12 +38,14 @@ static void write_diffuse(const incident_group *g, const incident_tables *t, glo
 }
 
 /* Writes nothing where a lane reflects nothing diffusely.
- *   out   of the group's first pixel */
-static void clear_others(const incident_group *g, uint row, global float *out)
+ *   out   of pixel 0 */
+static void clear_others(const incident_group *g, const incident_tables *t, global float *out)
 {
-    for (uint i = 0; i < g->lane_count; i++)
-        for (uint k = 0; !(g->diffuse >> i & 1u) && k < 2u * row; k++)
-            out[(size_t)i * 2u * row + k] = 0.0f;
+    for (uint i = 0; i < g->lane_count; i++) {
+        global float *own = incident_rows_of(g, i, t, out);
+        for (uint k = 0; !(g->diffuse >> i & 1u) && k < 2u * t->frame.sample_count; k++)
+            own[k] = 0.0f;
+    }
 }
 
 /* Adds what the rays of a specular share bring.
@@ -87,7 +89,8 @@ static void add_gloss(around from, radiometry_record frame, camera_record camera
  * dome: (DOME_ROWS, how.dome_count)
  * facets, temperature_k, facet_background: per facet, the ground's behind the real ones
  * light: see surroundings.h
- * hit, background, background_lit: per pixel; the last two are read for mirrors, not of facets
+ * hit: (pixel_count); order: (pixel_count), which pixel each of hit and met is, NULL: the same
+ * background, background_lit: per pixel; read for mirrors, not of facets
  * gloss_words: (LOBE_RAYS, pixel_count), see gloss.cl; NULL where nothing is rough
  * spectra, emissivity: as radiometry.cl
  * out: (pixel_count, 2, sample_count), W m-2 sr-1 um-1: of the sky, and of facets and ground */
@@ -96,26 +99,26 @@ kernel void incident(const radiometry_record frame, const camera_record camera,
                      global const facet_record *facets, global const material_record *materials,
                      global const float *temperature_k,
                      global const background_record *facet_background, global const float *light,
-                     global const hit_record *hit, global const background_record *background,
-                     global const float *background_lit, global const uint *met,
-                     global const uint *gloss_words, global const float *spectra,
-                     global const float *emissivity, global float *out)
+                     global const hit_record *hit, global const uint *order,
+                     global const background_record *background, global const float *background_lit,
+                     global const uint *met, global const uint *gloss_words,
+                     global const float *spectra, global const float *emissivity, global float *out)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= frame.pixel_count) return;
     const around from = {facets, materials, temperature_k, facet_background, light, how};
     const incident_cells cells = {how.cell_count, how.ring_count, cell, met};
     const incident_tables t = {frame, from, cells, dome, spectra, emissivity};
-    const incident_group g = incident_take_group(first, &t, hit);
-    global float *own = out + (size_t)first * 2u * frame.sample_count;
+    const incident_group g = incident_take_group(first, &t, hit, order);
 
-    clear_others(&g, frame.sample_count, own);
-    if (g.diffuse) write_diffuse(&g, &t, own);
-    for (uint i = 0; i < g.lane_count; i++, own += 2u * frame.sample_count) {
+    clear_others(&g, &t, out);
+    if (g.diffuse) write_diffuse(&g, &t, out);
+    for (uint i = 0; i < g.lane_count; i++) {
         if (g.specular[i] == 0.0f) continue;
+        const uint pixel = g.point[i];
         const hit_record at = hit[first + i];
-        const background_record mirrored = background[first + i];
-        add_gloss(from, frame, camera, first + i, &at, &mirrored, background_lit[first + i],
-                  gloss_words, spectra, emissivity, own);
+        const background_record mirrored = background[pixel];
+        add_gloss(from, frame, camera, pixel, &at, &mirrored, background_lit[pixel], gloss_words,
+                  spectra, emissivity, incident_rows_of(&g, i, &t, out));
     }
 }

@@ -115,14 +115,15 @@ kernel void incident_bodies(
     global const bvh_block *body_blocks, global const uint *medium, global const float *level,
     global const facet_record *facets, global const material_record *materials,
     global const float *temperature_k, global const background_record *facet_background,
-    global const float *light, global const hit_record *hit,
+    global const float *light, global const hit_record *hit, global const uint *order,
     global const background_record *background, global const float *background_lit,
     global const uint *met, global const uint *gloss_words, global const float *spectra,
     global const float *emissivity, global const float *extinction, global float *out)
 {
-    const uint pixel = get_global_id(0);
-    if (pixel >= frame.pixel_count) return;
-    const hit_record at = hit[pixel];
+    const uint place = get_global_id(0);
+    if (place >= frame.pixel_count) return;
+    const hit_record at = hit[place];
+    const uint pixel = hemisphere_point(order, place);
     if (at.facet == RECORD_NONE) return;
 
     const around from = {facets, materials, temperature_k, facet_background, light, how};
@@ -133,7 +134,7 @@ kernel void incident_bodies(
     const float specular = material.specular_share;
     const uint cell_rays = specular < 1.0f ? how.cell_count : 0u;
     const incident_cells cells = {cell_rays, how.ring_count, cell, met};
-    body_lobe lobe = {.view = look_around(at.normal, cells, pixel, frame.pixel_count),
+    body_lobe lobe = {.view = look_around(at.normal, cells, place, frame.pixel_count),
                       .ring_count = how.ring_count};
     global float *from_sky = out + (size_t)pixel * 2u * frame.sample_count;
     float direction[3];
@@ -143,7 +144,7 @@ kernel void incident_bodies(
         uint word;
         float weight = specular / (float)gloss_count(material);
         if (c < cell_rays) {
-            word = met[(size_t)c * frame.pixel_count + pixel];
+            word = met[(size_t)c * frame.pixel_count + place];
             hemisphere_lanes_direction(&lobe.view.axes, cell + 4u * c, direction);
             weight = (1.0f - specular) * cell[4u * c + 3u];
             weight *= direction[2] > 0.0f ? lobe.view.above : lobe.view.below;

@@ -148,7 +148,7 @@ INLINE void incident_add_blocks(const incident_faces *faces, const incident_rays
         incident_find_lobe(&lobe, g, incident_first_of(g->column[k]), t, block, side);
         for (uint bits = g->column[k]; bits; bits &= bits - 1u) {
             const uint i = incident_first_of(bits);
-            global float *to = out + (size_t)i * 2u * t->frame.sample_count;
+            global float *to = incident_rows_of(g, i, t, out);
             incident_from_faces(rays, i, light, &lobe, t, block, side, sum);
             UNROLL
             for (uint b = 0; b < side; b++)
@@ -158,7 +158,7 @@ INLINE void incident_add_blocks(const incident_faces *faces, const incident_rays
 }
 
 /* Adds what pixels get of the facets that they see through the cells of a part.
- *   out   of the group's first pixel */
+ *   out   of pixel 0 */
 static inline void incident_add_faces(const incident_group *g, const incident_tables *t,
                                       incident_part part, global float *out)
 {

@@ -27,6 +27,7 @@ typedef struct incident_part {
 /* LANES_WIDTH neighbouring pixels. */
 typedef struct incident_group {
     uint first, lane_count;
+    uint point[LANES_WIDTH];     /* which pixel each is */
     uint diffuse;                /* a bit per lane that is, wholly or partly */
     float specular[LANES_WIDTH]; /* share */
     uint lobe[LANES_WIDTH];      /* first row of the diffuse lobe, RECORD_NONE: Lambertian */
@@ -57,9 +58,10 @@ static inline void incident_find_columns(incident_group *g)
     }
 }
 
-/* Takes pixels `first` and following, and looks at what their rays met. */
+/* Takes pixels from place `first` on, and looks at what their rays met. */
 static inline incident_group incident_take_group(uint first, const incident_tables *t,
-                                                 global const hit_record *hit)
+                                                 global const hit_record *hit,
+                                                 global const uint *order)
 {
     const around *from = &t->from;
     incident_group g = {.first = first};
@@ -70,6 +72,7 @@ static inline incident_group incident_take_group(uint first, const incident_tabl
     for (uint i = 0; i < LANES_WIDTH; i++) {
         g.specular[i] = 0.0f;
         g.lobe[i] = RECORD_NONE;
+        if (i < g.lane_count) g.point[i] = hemisphere_point(order, first + i);
         if (i >= g.lane_count || hit[first + i].facet == RECORD_NONE) continue;
         const uint material = from->facets[hit[first + i].facet].material;
         if (!from->how.is_of_facets) g.specular[i] = from->materials[material].specular_share;
@@ -102,6 +105,14 @@ INLINE void incident_find_lobe(incident_lobe *out, const incident_group *g, uint
         for (uint r = 0; r < rings; r++)
             out->ring[r][b] = scale * lobe_of_ring(t->emissivity, row, lobe, r, block + b);
     }
+}
+
+/* The rows of a lane's pixel.
+ *   out   of pixel 0 */
+static inline global float *incident_rows_of(const incident_group *g, uint lane,
+                                             const incident_tables *t, global float *out)
+{
+    return out + (size_t)g->point[lane] * 2u * t->frame.sample_count;
 }
 
 /* Adds to a row of radiance; the first part begins it.

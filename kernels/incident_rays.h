@@ -128,7 +128,7 @@ static inline spectrum incident_from_facets(const incident_rays *rays, uint lane
 }
 
 /* Adds what facets get of those that they see through the cells of a part.
- *   out   of the group's first facet */
+ *   out   of facet 0 */
 static inline void incident_add_facets(const incident_group *g, const incident_tables *t,
                                        incident_part part, global float *out)
 {
@@ -147,7 +147,7 @@ static inline void incident_add_facets(const incident_group *g, const incident_t
             for (uint bits = g->column[k]; bits; bits &= bits - 1u) {
                 const uint i = incident_first_of(bits);
                 incident_add(incident_from_facets(&rays, i, &lobe, t, block), 1.0f, part,
-                             out + (size_t)i * 2u * row, block);
+                             incident_rows_of(g, i, t, out), block);
             }
         }
 }

@@ -320,7 +320,7 @@ INLINE void sky_add_blocks(const sky_column *column, const sky_odd_cells *odd,
         }
         UNROLL
         for (uint b = 0; b < side; b++)
-            incident_add(sum[b], 1.0f - g->specular[i], odd->part, out + (size_t)i * 2u * row,
+            incident_add(sum[b], 1.0f - g->specular[i], odd->part, incident_rows_of(g, i, t, out),
                          block + b);
     }
 }
@@ -349,7 +349,7 @@ static inline void sky_mark_odd(sky_column *column, const sky_odd_cells *odd)
 }
 
 /* Adds the sky that the lanes see.
- *   out   of the group's first pixel */
+ *   out   of pixel 0 */
 static inline void sky_add(const incident_group *g, const incident_tables *t, incident_part part,
                            global float *out)
 {

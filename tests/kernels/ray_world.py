@@ -91,7 +91,7 @@ class RayWorld:
             self.copy(a) for a in (cells, facets, temperature, materials, hits))
         met = self.cast(cell_count, cells, count, hits, sun, **how)
         rays = (np.uint32(cell_count), self.world[0], self.nodes, self.blocks)
-        arguments = (*rays, cells, facets, temperature, materials, hits, self.copy(met))
+        arguments = (*rays, cells, facets, temperature, materials, hits, self.copy(met), None)
         shape = (-(-count // self.lanes), 1)
         return self.run("background", count, arguments, BACKGROUND, shape=shape, **how)[0]
 

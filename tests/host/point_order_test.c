@@ -1,0 +1,84 @@
+#include "point_order.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+enum { COUNT = 3 * PIXEL_GROUP };
+
+static facet_record facet[3] = {{.material = 0}, {.material = 1}, {.material = 0}};
+
+static hit_record point(uint32_t of_facet, float x, float z)
+{
+    return (hit_record){.facet = of_facet, .normal = {x, 0.0f, z}};
+}
+
+/* Every second one is level; the rest faces ways of its own but for two. */
+static void fill(hit_record hit[COUNT])
+{
+    for (int i = 0; i < COUNT; i++)
+        hit[i] = i % 2 ? point(0, 0.0f, 1.0f) : point(2, (float)i / COUNT, .5f);
+}
+
+static void every_point_stands_once(void **state)
+{
+    hit_record hit[COUNT];
+    uint32_t order[COUNT], seen[COUNT] = {0};
+
+    (void)state;
+    fill(hit);
+    assert_int_equal(point_order_fill(order, hit, facet, COUNT), STATUS_OK);
+    for (int i = 0; i < COUNT; i++) seen[order[i]]++;
+    for (int i = 0; i < COUNT; i++) assert_int_equal(seen[i], 1);
+}
+
+static void those_that_face_alike_come_first_in_whole_groups(void **state)
+{
+    hit_record hit[COUNT];
+    uint32_t order[COUNT];
+
+    (void)state;
+    fill(hit);
+    assert_int_equal(point_order_fill(order, hit, facet, COUNT), STATUS_OK);
+    for (uint32_t i = 0; i < PIXEL_GROUP; i++) assert_int_equal(order[i], 2 * i + 1);
+    for (int i = PIXEL_GROUP + 1; i < COUNT; i++) assert_true(order[i] > order[i - 1]);
+}
+
+static void materials_and_misses_are_kept_apart(void **state)
+{
+    hit_record hit[COUNT];
+    uint32_t order[COUNT];
+
+    (void)state;
+    for (int i = 0; i < COUNT; i++)
+        hit[i] =
+            i % 3 == 2 ? (hit_record){.facet = RECORD_NONE} : point((uint32_t)i % 3, 0.0f, 1.0f);
+    assert_int_equal(point_order_fill(order, hit, facet, COUNT), STATUS_OK);
+    for (uint32_t i = 0; i < COUNT; i++) assert_int_equal(order[i] % 3, i / PIXEL_GROUP);
+}
+
+static void the_sign_of_a_zero_does_not_count(void **state)
+{
+    hit_record hit[COUNT];
+    uint32_t order[COUNT];
+
+    (void)state;
+    for (uint32_t i = 0; i < COUNT; i++)
+        hit[i] = i < PIXEL_GROUP ? point(1, 1.0f, 0.0f) : point(0, i % 2 ? 0.0f : -0.0f, 1.0f);
+    assert_int_equal(point_order_fill(order, hit, facet, COUNT), STATUS_OK);
+    for (uint32_t i = 0; i < COUNT; i++) assert_int_equal(order[i], i);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_point_stands_once),
+        cmocka_unit_test(those_that_face_alike_come_first_in_whole_groups),
+        cmocka_unit_test(materials_and_misses_are_kept_apart),
+        cmocka_unit_test(the_sign_of_a_zero_does_not_count),
+    };
+
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
