@@ -147,6 +147,8 @@ static void set_frame(render *r)
         .azimuth_count = (uint32_t)air->azimuth_count,
         .zenith_step_deg = (float)air->zenith_step_deg,
         .azimuth_step_deg = (float)air->azimuth_step_deg,
+        .knot_count = s->thesis ? 0 : r->shared.tables.knots->at->sample_count,
+        .knot_span = s->thesis ? 0 : r->shared.tables.knots->span,
     };
     r->shared.air = spectra_air(air, s->shape->origin_m[2]);
 }

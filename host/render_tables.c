@@ -83,7 +83,7 @@ status render_tables_take_blocks(render_tables *t, device *dev, const scene *s)
     spectra *blocks = NULL;
     float *rows = NULL;
 
-    TRY(spectra_coarsen(&blocks, t->bands));
+    TRY(spectra_coarsen(&blocks, t->knots->at));
     TRY(sample_emissivity(&rows, s, blocks));
     t->blocks.sample_count = blocks->sample_count;
     TRY(device_allocate(dev, &t->blocks.rows,
@@ -98,6 +98,34 @@ status render_tables_take_blocks(render_tables *t, device *dev, const scene *s)
 out:
     free(rows);
     spectra_free(blocks);
+    return rc;
+}
+
+/* Takes what stands at knots to the device.
+ *   emissivity_rows   shape (scene_emissivity_rows, sample_count of the bands) */
+static status take_knots(render_tables *t, device *dev, const scene *s, const bodies *through,
+                         const float *emissivity_rows)
+{
+    status rc = STATUS_OK;
+    const uint32_t samples = t->bands->sample_count, rows = scene_emissivity_rows(s);
+    float *picked = NULL;
+
+    TRY(knots_find(&t->knots, t->bands, s->air, through != NULL));
+    const knots *k = t->knots;
+    picked = malloc((size_t)rows * k->at->sample_count * sizeof *picked + 1);
+    NEED(picked, STATUS_MEMORY, "no memory for the emissivity of %u materials", s->material_count);
+    knots_pick(k, emissivity_rows, rows, samples, picked);
+    TRY(upload_emissivity(&t->knot_emissivity, dev, s, picked, k->at));
+    TRY(device_allocate(dev, &t->knot_rows,
+                        (size_t)k->at->row_count * k->at->sample_count * sizeof(float),
+                        k->at->rows));
+    if (k->span == 0) goto out;
+    const size_t blocks = samples / SPECTRA_BLOCK;
+    TRY(device_allocate(dev, &t->knot_first, blocks * sizeof *k->first, k->first));
+    TRY(device_allocate(dev, &t->knot_share, blocks * k->span * SPECTRA_BLOCK * sizeof *k->share,
+                        k->share));
+out:
+    free(picked);
     return rc;
 }
 
@@ -136,6 +164,7 @@ status render_tables_take_spectra(render_tables *t, device *dev, const scene *s,
                         t->bands->weight_um));
     TRY(sample_emissivity(&emissivity_rows, s, t->bands));
     TRY(upload_emissivity(&t->emissivity_rows, dev, s, emissivity_rows, t->bands));
+    if (!s->thesis) TRY(take_knots(t, dev, s, through, emissivity_rows));
     if (through)
         TRY(bodies_sample(through, t->bands->wavenumber_cm1, t->bands->sample_count,
                           &t->extinction_rows));
@@ -148,6 +177,11 @@ out:
 void render_tables_free(render_tables *t)
 {
     free(t->reflectance);
+    device_release(t->knot_share);
+    device_release(t->knot_first);
+    device_release(t->knot_emissivity);
+    device_release(t->knot_rows);
+    knots_free(t->knots);
     device_release(t->blocks.emissivity);
     device_release(t->blocks.rows);
     device_release(t->ln_radiance);

@@ -5,6 +5,7 @@
 #include "bodies.h"
 #include "device.h"
 #include "interreflection.h"
+#include "knots.h"
 #include "scene.h"
 #include "spectra.h"
 
@@ -16,7 +17,10 @@ typedef struct render_tables {
     spectra *bands;
     device_memory spectrum_rows, emissivity_rows, extinction_rows, band_records, band_weights,
         band_emissivity, ln_radiance;
-    /* Exact mode: the same over blocks of samples, as interreflection.h takes them. */
+    /* Exact mode: the same at knots, how samples lie between them, and over blocks of knots, as
+     * interreflection.h takes them. */
+    knots *knots;
+    device_memory knot_rows, knot_emissivity, knot_first, knot_share;
     interreflection_spectra blocks;
     float *reflectance; /* shape (facet_count): the most at any wavelength */
 } render_tables;

@@ -28,9 +28,9 @@ uint32_t render_tile_samples(const render_shared *r)
 
 uint32_t render_tile_most(const render_shared *r)
 {
-    const uint64_t words =
-        shape_factor_cell_count(r->grid) + 64u + (r->around ? 2u * r->frame.sample_count : 0u) +
-        (r->bodies ? body_words(r) : 0u) + (uint64_t)r->s->band_count * BAND_PLANES;
+    const uint64_t words = shape_factor_cell_count(r->grid) + 64u + 2u * r->frame.knot_count +
+                           (r->bodies ? body_words(r) : 0u) +
+                           (uint64_t)r->s->band_count * BAND_PLANES;
     const uint64_t limit = ((uint64_t)TILE_BYTES / (words * sizeof(float))) & ~(uint64_t)63;
 
     return limit < TILE_LEAST ? TILE_LEAST : limit > TILE_MOST ? TILE_MOST : (uint32_t)limit;
@@ -114,7 +114,7 @@ static status allocate(render_tile_memory *t, const render_shared *r)
     TRY(device_allocate(r->dev, &t->background_hit, n * sizeof(hit_record), NULL));
     TRY(device_allocate(r->dev, &t->background_lit, n * sizeof(float), NULL));
     if (has_incident(r))
-        TRY(device_allocate(r->dev, &t->incident, n * 2 * r->frame.sample_count * sizeof(float),
+        TRY(device_allocate(r->dev, &t->incident, n * 2 * r->frame.knot_count * sizeof(float),
                             NULL));
     if (has_incident(r) && scene_is_rough(r->s))
         TRY(device_allocate(r->dev, &t->gloss, n * LOBE_RAYS * sizeof(uint32_t), NULL));
@@ -249,8 +249,9 @@ static status integrate(const render_tile_memory *t, const render_shared *r,
                        ARG(r->tables.facets), ARG(r->tables.materials), ARG(t->temperature_k),
                        ARG(t->hit), ARG(t->background), ARG(t->lit), ARG(t->background_lit),
                        ARG(r->tables.spectrum_rows), ARG(r->tables.emissivity_rows),
-                       ARG(t->incident), ARG(r->tables.extinction_rows), ARG(t->body_paths),
-                       ARG(t->emissivities), ARG(t->terms)));
+                       ARG(t->incident), ARG(r->tables.knot_first), ARG(r->tables.knot_share),
+                       ARG(r->tables.extinction_rows), ARG(t->body_paths), ARG(t->emissivities),
+                       ARG(t->terms)));
         TRY(device_run(r->dev, "band_planes", shape, ARG(frame), ARG(r->tables.band_records),
                        ARG(r->tables.band_weights), ARG(r->tables.band_emissivity),
                        ARG(r->tables.ln_radiance), ARG(t->emissivities), ARG(t->terms),
@@ -278,8 +279,10 @@ static status colour(const render_tile_memory *t, const render_shared *r)
     if (has_incident(r)) {
         TRY(interreflection_set_sun(r->lights, &r->frame));
         if (t->gloss) TRY(cast_gloss(t, r, &frame));
+        radiometry_record at_knots = frame;
+        at_knots.sample_count = frame.knot_count;
         const incident_pixels pixels = {
-            .frame = frame,
+            .frame = at_knots,
             .camera = r->camera,
             .points = t->points,
             .background = t->background,
@@ -288,8 +291,8 @@ static status colour(const render_tile_memory *t, const render_shared *r)
             .facet_background = interreflection_background(r->lights),
             .light = interreflection_rows(r->lights),
             .light_length = r->tables.blocks.sample_count,
-            .spectra = r->tables.spectrum_rows,
-            .emissivity = r->tables.emissivity_rows,
+            .spectra = r->tables.knot_rows,
+            .emissivity = r->tables.knot_emissivity,
             .bodies = r->bodies,
             .extinction = r->tables.extinction_rows,
         };

@@ -253,11 +253,11 @@ static double block_mean(const spectra *s, const float *from, uint32_t block)
 {
     double sum = 0.0, weights = 0.0, plain = 0.0;
 
-    for (uint32_t i = block * SPECTRA_BLOCK; i < (block + 1) * SPECTRA_BLOCK; i++) {
+    for (uint32_t i = block * LIGHT_BLOCK; i < (block + 1) * LIGHT_BLOCK; i++) {
         const double weight = (double)s->rows[SPECTRA_WEIGHT * s->sample_count + i];
         sum += weight * (double)from[i];
         weights += weight;
-        plain += (double)from[i] / SPECTRA_BLOCK;
+        plain += (double)from[i] / LIGHT_BLOCK;
     }
     return weights > 0.0 ? sum / weights : plain;
 }
@@ -267,7 +267,7 @@ static double block_mean(const spectra *s, const float *from, uint32_t block)
 static void average(const spectra *s, const spectra *coarse, const float *rows, size_t row_count,
                     float *out)
 {
-    const uint32_t blocks = s->sample_count / SPECTRA_BLOCK;
+    const uint32_t blocks = s->sample_count / LIGHT_BLOCK;
 
     for (size_t r = 0; r < row_count; r++)
         for (uint32_t b = 0; b < coarse->sample_count; b++)
@@ -282,7 +282,7 @@ status spectra_coarsen(spectra **out, const spectra *s)
     float *wavelength_um = malloc(s->sample_count * sizeof *wavelength_um);
 
     NEED(coarse && wavelength_um, STATUS_MEMORY, "no memory for coarse spectra");
-    coarse->sample_count = padded(s->sample_count / SPECTRA_BLOCK);
+    coarse->sample_count = padded(s->sample_count / LIGHT_BLOCK);
     coarse->row_count = s->row_count;
     coarse->wavenumber_cm1 = calloc(coarse->sample_count, sizeof(double));
     coarse->rows = calloc((size_t)s->row_count * coarse->sample_count, sizeof(float));

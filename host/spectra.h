@@ -29,7 +29,7 @@ status spectra_build(spectra **out, const band *bands, uint32_t band_count, cons
                      bool by_points, bool thesis);
 void spectra_free(spectra *s);
 
-/* Takes means over blocks of SPECTRA_BLOCK samples, weighted by the response, instead of samples;
+/* Takes means over blocks of LIGHT_BLOCK samples, weighted by the response, instead of samples;
  * Planck's law is that of the blocks' mean wavelengths. There are no bands in it. */
 status spectra_coarsen(spectra **out, const spectra *s);
 

@@ -92,7 +92,7 @@ static void add_gloss(around from, radiometry_record frame, camera_record camera
  * hit: (pixel_count); order: (pixel_count), which pixel each of hit and met is, NULL: the same
  * background, background_lit: per pixel; read for mirrors, not of facets
  * gloss_words: (LOBE_RAYS, pixel_count), see gloss.cl; NULL where nothing is rough
- * spectra, emissivity: as radiometry.cl
+ * spectra, emissivity: as radiometry.cl, of the frame's samples: the knots
  * out: (pixel_count, 2, sample_count), W m-2 sr-1 um-1: of the sky, and of facets and ground */
 kernel void incident(const radiometry_record frame, const camera_record camera,
                      const incident_record how, global const float *cell, global const float *dome,

@@ -7,8 +7,10 @@
 typedef struct spectra_tables {
     global const float *rows;       /* shape (rows, sample_count): SPECTRA_... of records.h */
     global const float *emissivity; /* shape (rows, sample_count) */
-    global const float *incident;   /* of this pixel: shape (2, sample_count); NULL: thesis mode */
-    global const float *extinction; /* see cloud.h; NULL: no bodies */
+    global const float *incident;   /* of this pixel: shape (2, knot_count); NULL: thesis mode */
+    global const uint *knot_first;  /* how samples lie between knots: see below */
+    global const float *knot_share;
+    global const float *extinction;         /* see cloud.h; NULL: no bodies */
     global const transmission_path *bodies; /* of this pixel: shape (TRANSMISSION_PATHS), strided */
 } spectra_tables;
 
@@ -115,14 +117,31 @@ static spectrum mean_background(const pixel_state *pixel, spectra_tables tables,
     return see_through(radiance, tables, frame, TRANSMISSION_BACKGROUND, block);
 }
 
+/* A row of what is known at knots, at samples. */
+static spectrum between_knots(spectra_tables tables, radiometry_record frame,
+                              global const float *row, uint block)
+{
+    spectrum sum = (spectrum)0.0f;
+
+    if (frame.knot_span == 0u) return spectrum_load(row, block);
+    const uint sample = block * SPECTRUM_WIDTH, whole = sample / SPECTRA_BLOCK;
+    global const float *at = row + tables.knot_first[whole];
+    global const float *share = tables.knot_share +
+                                (size_t)whole * frame.knot_span * SPECTRA_BLOCK +
+                                sample % SPECTRA_BLOCK;
+    for (uint k = 0; k < frame.knot_span; k++)
+        sum = fma((spectrum)at[k], spectrum_load(share + k * SPECTRA_BLOCK, 0u), sum);
+    return sum;
+}
+
 static from_above look_above(const pixel_state *pixel, spectra_tables tables,
                              radiometry_record frame, uint block)
 {
     from_above out = {(spectrum)0.0f, (spectrum)0.0f};
 
     if (tables.incident) {
-        out.sky = spectrum_load(tables.incident, block);
-        out.background = spectrum_load(tables.incident + frame.sample_count, block);
+        out.sky = between_knots(tables, frame, tables.incident, block);
+        out.background = between_knots(tables, frame, tables.incident + frame.knot_count, block);
         return out;
     }
     if (pixel->shape_factor > 0.0f)
@@ -267,8 +286,10 @@ static void store_terms(const group_terms *terms, uint term_count, uint first, u
  * facets: per facet, the ground's behind the real ones; materials: material_record
  * temperature_k, hit, background, sunlit, background_sunlit: per pixel
  * spectra: shape (rows, sample_count), see SPECTRA_...; emissivity: shape (rows, sample_count)
- * incident: shape (pixel_count, 2, sample_count), see incident.cl; NULL in thesis mode, which takes
- *   the mean background instead
+ * incident: shape (pixel_count, 2, knot_count), see incident.cl; NULL in thesis mode, which takes the
+ *   mean background instead
+ * knot_first, knot_share: shape (blocks), (blocks, knot_span, SPECTRUM_WIDTH): the first knot that a
+ *   block of samples takes, and what each counts at its samples
  * extinction: rows of CLOUD_... (cloud.h), per m; bodies: see crossing.cl; both NULL in
  *   a scene without transmissive bodies
  * emissivities: shape (pixel_count, 2): of the target and of its background, rows of `emissivity`
@@ -281,7 +302,8 @@ kernel void radiometry(const radiometry_record frame, const air_record air,
                        global const hit_record *hit, global const background_record *background,
                        global const float *sunlit, global const float *background_sunlit,
                        global const float *spectra, global const float *emissivity,
-                       global const float *incident, global const float *extinction,
+                       global const float *incident, global const uint *knot_first,
+                       global const float *knot_share, global const float *extinction,
                        global const transmission_path *bodies,
                        global emissivity_record *emissivities, global float *terms)
 {
@@ -291,7 +313,7 @@ kernel void radiometry(const radiometry_record frame, const air_record air,
     const uint count = min(PIXEL_GROUP, frame.pixel_count - first);
     const uint term_count = band_plane_terms(frame.wants), row = frame.sample_count;
     const uint blocks = row / SPECTRUM_WIDTH;
-    spectra_tables tables = {spectra, emissivity, 0, extinction, bodies};
+    spectra_tables tables = {spectra, emissivity, 0, knot_first, knot_share, extinction, bodies};
     pixel_state state[PIXEL_GROUP];
     group_terms own;
 
@@ -309,7 +331,8 @@ kernel void radiometry(const radiometry_record frame, const air_record air,
     for (uint block = 0; block < blocks; block += BLOCKS_TOGETHER) {
         const uint together = min(BLOCKS_TOGETHER, blocks - block);
         for (uint i = 0; i < count; i++) {
-            if (!frame.thesis) tables.incident = incident + (size_t)(first + i) * 2u * row;
+            if (!frame.thesis)
+                tables.incident = incident + (size_t)(first + i) * 2u * frame.knot_count;
             tables.bodies = bodies + first + i;
             for (uint b = 0; b < together; b++) {
                 const block_terms seen = look(&state[i], tables, frame, &air, block + b);

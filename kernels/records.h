@@ -170,7 +170,8 @@ typedef struct radiometry_record {
     float sun[3];     /* unit vector towards the sun */
     uint wants;       /* planes of the bands, a bit each; see band_plane.h */
     uint first_group; /* of a launch over groups of PIXEL_GROUP pixels, counted in the tile */
-    uint unused[2];
+    uint knot_count;  /* length of a row of what reaches surfaces: see knots.h of host/ */
+    uint knot_span;   /* knots that a block of samples lies between; 0: every sample is a knot */
 } radiometry_record;
 RECORD_SIZE(radiometry_record, 80);
 
@@ -203,6 +204,9 @@ RECORD_SIZE(air_record, 192);
 /* Samples side by side in the rows that are taken at once. */
 #define SPECTRA_BLOCK 16u
 
+/* Knots (host/knots.h) that have one value of the light between facets. */
+#define LIGHT_BLOCK 4u
+
 /* Directions of the sky, times rings of lobes, that one surface can count. */
 #define INCIDENT_WEIGHTS 1024u
 
@@ -229,7 +233,7 @@ typedef struct incident_record {
     uint light_length; /* floats of a row of the facets' light */
     uint
         is_of_facets; /* 1: all surfaces are taken as diffuse, and light has a float a sample; 0: it
-                          has one a block of samples */
+                          has one a LIGHT_BLOCK of samples */
     uint keeps_sky;   /* 1: what the sky brings is there already; of facets alone */
     uint unused[2];
 } incident_record;

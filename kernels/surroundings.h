@@ -16,14 +16,22 @@ typedef struct around {
     incident_record how;
 } around;
 
+/* A row of light for a block of the pixels' samples: LIGHT_BLOCK of them share a float. */
+static inline spectrum light_at(global const float *row, uint block)
+{
+    const float4 four = vload4(block, row);
+
+    return (spectrum)((float4)four.x, (float4)four.y, (float4)four.z, (float4)four.w);
+}
+
 /* Light of a facet for a block of the pixels' samples. */
 static inline incident_light light_of(around from, uint facet, uint block)
 {
     const uint length = from.how.light_length;
-    global const float *light = from.light + (size_t)facet * LIGHT_ROWS * length + block;
+    global const float *light = from.light + (size_t)facet * LIGHT_ROWS * length;
 
-    return (incident_light){(spectrum)light[LIGHT_LOBE * length],
-                            (spectrum)light[LIGHT_EXTRA * length]};
+    return (incident_light){light_at(light + LIGHT_LOBE * length, block),
+                            light_at(light + LIGHT_EXTRA * length, block)};
 }
 
 /* A side of a facet without its emissivity.

@@ -205,7 +205,7 @@ class Reference:
         sun = sun * self.transmission(SUN_WAY, pixel)
         above = share * sky, (1 - share) * behind
         if not self.frame["thesis"]:  # exact mode takes what incident.cl made
-            above = case.incident[pixel].astype(np.float64)
+            above = case.at_samples(case.incident[pixel].astype(np.float64))
         tau2, path = self.sensor_path(*self.air(pixel, float(hit["range_m"])), pixel)
         self.parts = [
             tau2 * e * planck(self.wavelength_um, float(case.pixel_k[pixel])), tau2 * (1 - e) * sun,
@@ -241,7 +241,7 @@ class Case:
 
     def __init__(self, seed, count, thesis, bodies=False, air=""):
         self.random = np.random.default_rng(seed)
-        self.count = count
+        self.count, self.has_bodies = count, bodies
         self.set_bands()
         self.set_frame(thesis)
         self.set_materials()
@@ -378,7 +378,27 @@ class Case:
         b["normal"] = behind * np.sign(towards)[:, None]
         self.sunlit, self.background_sunlit = random.random((2, n)).astype(np.float32)
         self.pixel_k = random.uniform(240, 340, n).astype(np.float32)
-        self.incident = random.uniform(0.5, 9, (n, 2, len(self.weight))).astype(np.float32)
+        self.set_incident()
+
+    def set_incident(self):
+        """At every sample where there are bodies, else at knots: blocks of 16 samples between 5 of them."""
+        samples, random = len(self.weight), self.random
+        knots = samples if self.has_bodies else 32
+        self.knot_first = self.knot_share = None
+        if not self.has_bodies:
+            self.knot_first = random.integers(0, knots - 4, samples // 16).astype(np.uint32)
+            self.knot_share = random.dirichlet(np.ones(5), (samples // 16, 16)).astype(np.float32)
+            self.knot_share = np.ascontiguousarray(self.knot_share.transpose(0, 2, 1))
+            self.frame["knot_span"] = 5
+        self.frame["knot_count"] = knots
+        self.incident = random.uniform(0.5, 9, (self.count, 2, knots)).astype(np.float32)
+
+    def at_samples(self, incident):
+        """incident: shape (2, knots)."""
+        if self.knot_first is None:
+            return incident
+        between = self.knot_first[:, None] + np.arange(5)
+        return np.einsum("pbk,bki->pbi", incident[:, between], self.knot_share).reshape(2, -1)
 
     def set_bodies(self):
         random, shape = self.random, (4, self.count)

@@ -42,7 +42,7 @@ CAMERA = record("position[3] corner[3] across[3] down[3] *first_column *first_ro
                 " *is_orthographic *strata *seed *unused[3]")
 RADIOMETRY = record("*columns *first_pixel *pixel_count *band_count *sample_count *thesis"
                     " *path_count path_zenith_first_deg path_zenith_step_deg *zenith_count"
-                    " *azimuth_count zenith_step_deg azimuth_step_deg sun[3] *wants *first_group *unused[2]")
+                    " *azimuth_count zenith_step_deg azimuth_step_deg sun[3] *wants *first_group *knot_count *knot_span")
 AIR = record("*first_row *altitude_count *range_count *is_level ground_z_m *unused[3] altitude_z_m[20]"
              " range_m[20]")
 TRANSMISSION_PATH = record("length_m[4] temperature_k[4] middle_m[4] vertical_m[4] *medium[4]")

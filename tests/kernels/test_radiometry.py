@@ -44,7 +44,7 @@ def run(opencl, case, options="", groups=None):
     row = all_groups * records.PIXEL_GROUP
     arrays = [case.facets, case.materials, case.pixel_k, case.hit, case.background,
               case.sunlit, case.background_sunlit, case.spectra, case.emissivity, case.incident,
-              case.extinction, case.body_paths]
+              case.knot_first, case.knot_share, case.extinction, case.body_paths]
     inputs = [case.air[0], case.camera[0], *(a if a is None else probe.copy(opencl, a) for a in arrays)]
     emissivity, ln_radiance = tables_of(opencl, case)
     emissivities = probe.room(opencl, 2 * row * records.EMISSIVITY.itemsize)
@@ -236,6 +236,7 @@ def black_plane(low_um, high_um, temperature_k):
     case.hit["facet"], case.hit["normal"] = 0, (0, 0, 1)
     case.background["facet"] = records.NONE
     case.pixel_k[:] = temperature_k
+    case.frame["knot_count"], case.frame["knot_span"] = len(case.weight), 0
     case.incident = np.full((1, 2, len(case.weight)), 7, np.float32)
     case.emissivity = np.ones((1, len(case.weight)), np.float32)
     flat = np.ones(len(case.weight))
