@@ -43,7 +43,8 @@ static status trace_some(facet_light *out, const facet_light_world *w, uint32_t 
     uint32_t *traced = malloc(bytes);
 
     NEED(at && traced, STATUS_MEMORY, "no memory for %u points", points);
-    for (uint32_t i = 0; i < count; i++) facet_sample(at + i * FACET_SAMPLES, w->shape, first + i);
+    for (uint32_t i = 0; i < count; i++)
+        facet_sample(at + i * FACET_SAMPLES, w->shape, first + i, 1);
     TRY(device_allocate(w->dev, &hit, points * sizeof *at, at));
     TRY(device_allocate(w->dev, &history, bytes, NULL));
     TRY(sun_history_trace(w->sun, w->rays, w->facets, points, hit, history));

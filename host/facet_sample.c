@@ -2,38 +2,127 @@
 
 #include "polygon.h"
 
+#include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
-/* Weights of the corners. */
-static const float quarters[FACET_SAMPLES][3] = {{1.0f / 3.0f, 1.0f / 3.0f, 1.0f / 3.0f},
-                                                 {2.0f / 3.0f, 1.0f / 6.0f, 1.0f / 6.0f},
-                                                 {1.0f / 6.0f, 2.0f / 3.0f, 1.0f / 6.0f},
-                                                 {1.0f / 6.0f, 1.0f / 6.0f, 2.0f / 3.0f}};
-static const float halves[2][3] = {{1.0f / 6.0f, 2.0f / 3.0f, 1.0f / 6.0f},
-                                   {1.0f / 2.0f, 1.0f / 6.0f, 1.0f / 3.0f}};
+enum { LEVEL_MOST = 3, POINTS_EACH = 2, POINTS_LEAST = 1 << 16 };
 
-static void set_point(hit_record *out, const geometry *g, uint32_t facet, const uint32_t corner[3],
-                      const float weight[3])
+/* Exponents of areas, of 0 too. */
+enum { EXPONENT_LEAST = -127, EXPONENTS = 256 };
+
+/* Weights of the corners of a triangle: of its middle, and of two points of it. */
+static const double middle[1][3] = {{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}};
+static const double halves[2][3] = {{1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0},
+                                    {1.0 / 2.0, 1.0 / 6.0, 1.0 / 3.0}};
+
+/* What is set in each of the smallest parts. */
+typedef struct pattern {
+    int count;
+    const double (*weight)[3];
+} pattern;
+
+static hit_record *set_points(hit_record *out, const double p[3][3], pattern each)
 {
-    *out = (hit_record){.facet = facet};
-    memcpy(out->normal, g->normal[facet], sizeof out->normal);
-    for (int k = 0; k < 3; k++)
-        for (int v = 0; v < 3; v++) out->point[k] += weight[v] * g->position[corner[v]][k];
+    for (int i = 0; i < each.count; i++)
+        for (int k = 0; k < 3; k++) {
+            double sum = 0.0;
+            for (int v = 0; v < 3; v++) sum += each.weight[i][v] * p[v][k];
+            out[i].point[k] = (float)sum;
+        }
+    return out + each.count;
 }
 
-void facet_sample(hit_record out[FACET_SAMPLES], const geometry *g, uint32_t facet)
+/* Cuts a triangle into quarters over and over. Returns behind the last point. */
+static hit_record *spread(hit_record *out, const double p[3][3], int depth, pattern each)
 {
-    const uint32_t *c = g->corner[facet];
+    double half[3][3];
 
-    if (c[3] == UINT32_MAX) {
-        for (int i = 0; i < FACET_SAMPLES; i++) set_point(&out[i], g, facet, c, quarters[i]);
-        return;
+    if (depth == 0) return set_points(out, p, each);
+    for (int v = 0; v < 3; v++)
+        for (int k = 0; k < 3; k++) half[v][k] = .5 * (p[v][k] + p[(v + 1) % 3][k]);
+    out = spread(out, (const double(*)[3])half, depth - 1, each);
+    for (int v = 0; v < 3; v++) {
+        double corner[3][3];
+        memcpy(corner[0], p[v], sizeof corner[0]);
+        memcpy(corner[1], half[v], sizeof corner[1]);
+        memcpy(corner[2], half[(v + 2) % 3], sizeof corner[2]);
+        out = spread(out, (const double(*)[3])corner, depth - 1, each);
     }
+    return out;
+}
+
+static hit_record *spread_corners(hit_record *out, const geometry *g, const uint32_t corner[3],
+                                  int depth, pattern each)
+{
+    double p[3][3];
+
+    for (int v = 0; v < 3; v++)
+        for (int k = 0; k < 3; k++) p[v][k] = (double)g->position[corner[v]][k];
+    return spread(out, (const double(*)[3])p, depth, each);
+}
+
+/* A quad has one point beside the middle of its diagonal, which rays from there should not run along. */
+static void spread_quad(hit_record *out, const geometry *g, const uint32_t *c, int level)
+{
+    static const double beside[1][3] = {{.48, .04, .48}};
     const uint32_t d = polygon_diagonal(c, (const float(*)[3])g->position);
     const uint32_t first[3] = {c[d], c[d + 1], c[d + 2]};
     const uint32_t second[3] = {c[d], c[d + 2], c[(d + 3) % 4]};
-    for (int i = 0; i < 2; i++) {
-        set_point(&out[i], g, facet, first, halves[i]);
-        set_point(&out[2 + i], g, facet, second, halves[i]);
+    const pattern two = {2, halves}, one = {1, beside};
+
+    if (level == 0) {
+        spread_corners(out, g, first, 0, one);
+        return;
     }
+    out = spread_corners(out, g, first, level - 1, two);
+    spread_corners(out, g, second, level - 1, two);
+}
+
+void facet_sample(hit_record *out, const geometry *g, uint32_t facet, uint8_t level)
+{
+    const uint32_t *c = g->corner[facet];
+    const pattern one = {1, middle};
+
+    for (uint32_t i = 0; i < facet_sample_count(level); i++) {
+        out[i] = (hit_record){.facet = facet};
+        memcpy(out[i].normal, g->normal[facet], sizeof out[i].normal);
+    }
+    if (c[3] == UINT32_MAX)
+        spread_corners(out, g, c, level, one);
+    else
+        spread_quad(out, g, c, level);
+}
+
+static int exponent_of(float area_m2)
+{
+    return area_m2 > 0.0f ? (int)fmax(ilogb((double)area_m2), EXPONENT_LEAST) : EXPONENT_LEAST;
+}
+
+/* Facets have four points from areas of 2^lowest on, and four times as many from four times as much. */
+static uint8_t level_of(int exponent, int lowest)
+{
+    const int level = exponent < lowest ? 0 : 1 + (exponent - lowest) / 2;
+
+    return (uint8_t)(level < LEVEL_MOST ? level : LEVEL_MOST);
+}
+
+void facet_sample_levels(uint8_t *out_level, const float *area_m2, uint32_t count)
+{
+    const uint64_t each = (uint64_t)count * POINTS_EACH;
+    const uint64_t most = each > POINTS_LEAST ? each : POINTS_LEAST;
+    uint32_t facets[EXPONENTS] = {0};
+    int lowest = EXPONENT_LEAST;
+    bool is_enough = false;
+
+    for (uint32_t i = 0; i < count; i++) facets[exponent_of(area_m2[i]) - EXPONENT_LEAST]++;
+    while (!is_enough) {
+        uint64_t points = 0;
+        for (int e = 0; e < EXPONENTS; e++)
+            points +=
+                (uint64_t)facets[e] * facet_sample_count(level_of(e + EXPONENT_LEAST, lowest));
+        is_enough = points <= most || lowest > EXPONENT_LEAST + EXPONENTS;
+        lowest += !is_enough;
+    }
+    for (uint32_t i = 0; i < count; i++) out_level[i] = level_of(exponent_of(area_m2[i]), lowest);
 }

@@ -8,8 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Facets whose points are traced at once: they bound the memory on the device. */
-enum { FACETS_AT_ONCE = 1 << 14 };
+/* Points of facets that are traced at once, but for those of the last: they bound the memory on the
+ * device. */
+enum { POINTS_AT_ONCE = 1 << 16 };
 
 struct temperature {
     device *dev;
@@ -129,28 +130,55 @@ out:
     return rc;
 }
 
-/* Means over the facets' points of facets first .. first + count - 1. */
-static status warm_some(const temperature *t, const geometry *g, const ray_scene *rays,
-                        uint32_t first, uint32_t count, float *out_k)
+/* Facets in a row, and how their points are spread. */
+typedef struct facet_run {
+    const geometry *shape;
+    const uint8_t *level; /* per facet of the shape */
+    uint32_t first, count, points;
+} facet_run;
+
+/* Takes facets from `first` on, as many as are traced at once. */
+static facet_run take_run(const geometry *g, const uint8_t *level, uint32_t first)
+{
+    facet_run run = {.shape = g, .level = level, .first = first};
+
+    while (first + run.count < g->facet_count && run.points < POINTS_AT_ONCE)
+        run.points += facet_sample_count(level[first + run.count++]);
+    return run;
+}
+
+/* Means over the points of each facet.
+ *   point_k   shape (run->points); out_k: per facet of the shape */
+static void average(const facet_run *run, const float *point_k, float *out_k)
+{
+    for (uint32_t i = run->first; i < run->first + run->count; i++) {
+        const uint32_t points = facet_sample_count(run->level[i]);
+        float sum = 0.0f;
+        for (uint32_t k = 0; k < points; k++) sum += *point_k++;
+        out_k[i] = sum / (float)points;
+    }
+}
+
+/* Temperatures of the facets of a run, in the sun and shadow of their points. */
+static status warm_run(const temperature *t, const ray_scene *rays, const facet_run *run,
+                       float *out_k)
 {
     status rc = STATUS_OK;
-    const uint32_t points = count * FACET_SAMPLES;
     device_memory hit = NULL, history = NULL;
-    hit_record *at = malloc(points * sizeof *at);
-    float *point_k = malloc(points * sizeof *point_k);
+    hit_record *at = malloc(run->points * sizeof *at), *next = at;
+    float *point_k = malloc(run->points * sizeof *point_k);
 
-    NEED(at && point_k, STATUS_MEMORY, "no memory for %u points", points);
-    for (uint32_t i = 0; i < count; i++) facet_sample(at + i * FACET_SAMPLES, g, first + i);
-    TRY(device_allocate(t->dev, &hit, points * sizeof *at, at));
-    TRY(device_allocate(t->dev, &history,
-                        (size_t)points * sun_history_words(t->sun) * sizeof(uint32_t), NULL));
-    TRY(sun_history_trace(t->sun, rays, t->facets, points, hit, history));
-    TRY(warm_points(t, points, at, history, point_k));
-    for (uint32_t i = 0; i < count; i++) {
-        float sum = 0.0f;
-        for (int k = 0; k < FACET_SAMPLES; k++) sum += point_k[i * FACET_SAMPLES + (uint32_t)k];
-        out_k[i] = sum / FACET_SAMPLES;
+    NEED(at && point_k, STATUS_MEMORY, "no memory for %u points", run->points);
+    for (uint32_t i = run->first; i < run->first + run->count; i++) {
+        facet_sample(next, run->shape, i, run->level[i]);
+        next += facet_sample_count(run->level[i]);
     }
+    TRY(device_allocate(t->dev, &hit, run->points * sizeof *at, at));
+    TRY(device_allocate(t->dev, &history,
+                        (size_t)run->points * sun_history_words(t->sun) * sizeof(uint32_t), NULL));
+    TRY(sun_history_trace(t->sun, rays, t->facets, run->points, hit, history));
+    TRY(warm_points(t, run->points, at, history, point_k));
+    average(run, point_k, out_k);
 out:
     device_release(history);
     device_release(hit);
@@ -164,13 +192,17 @@ static status warm_area(const temperature *t, const geometry *g, const ray_scene
                         float *facet_k)
 {
     status rc = STATUS_OK;
+    uint8_t *level = malloc((size_t)g->facet_count + 1);
 
-    for (uint32_t first = 0; first < g->facet_count; first += FACETS_AT_ONCE) {
-        const uint32_t left = g->facet_count - first;
-        TRY(warm_some(t, g, rays, first, left < FACETS_AT_ONCE ? left : FACETS_AT_ONCE,
-                      facet_k + first));
+    NEED(level, STATUS_MEMORY, "no memory for %u facets", g->facet_count);
+    facet_sample_levels(level, g->area_m2, g->facet_count);
+    for (uint32_t first = 0; first < g->facet_count;) {
+        const facet_run run = take_run(g, level, first);
+        TRY(warm_run(t, rays, &run, facet_k));
+        first += run.count;
     }
 out:
+    free(level);
     return rc;
 }
 

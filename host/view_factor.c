@@ -90,7 +90,7 @@ static status trace_part(collection *c, const ray_scene *rays, const geometry *g
 
     NEED(at, STATUS_MEMORY, "no memory for %u points", count);
     for (uint32_t i = 0; i < count; i++) {
-        facet_sample(all, g, first + i);
+        facet_sample(all, g, first + i, 1);
         at[i] = all[k];
         if (!(g->area_m2[first + i] > 0.0f)) at[i].facet = RECORD_NONE;
     }
