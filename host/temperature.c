@@ -228,14 +228,16 @@ out:
     return rc;
 }
 
-/* Facets that know nothing of each other: in exact mode the mean temperature of their points. */
+/* Facets that know nothing of each other: in exact mode the mean temperature of their points, but for
+ * the ground's. */
 static status warm_alone(const temperature *t, const scene *s, const ray_scene *rays,
                          float *facet_k)
 {
     status rc = STATUS_OK;
-    const thermal_subject all = {.facet = t->facet, .count = t->facet_count};
+    const size_t shaded = s->thesis ? 0 : s->shape->facet_count;
+    const thermal_subject lit = {.facet = t->facet + shaded, .count = t->facet_count - shaded};
 
-    TRY(thermal_at_time(t->model, &all, facet_k));
+    TRY(thermal_at_time(t->model, &lit, facet_k + shaded));
     if (!s->thesis) TRY(warm_area(t, s->shape, rays, facet_k));
 out:
     return rc;
