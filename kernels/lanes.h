@@ -80,6 +80,9 @@ static inline uint lanes_bits_of(lanes_mask mask)
 {
 #if defined(__AVX512DQ__) && !defined(RAY_PORTABLE)
     return (ushort)__builtin_ia32_cvtd2mask512(mask);
+#elif defined(__AVX__) && !defined(RAY_PORTABLE)
+    return (uint)__builtin_ia32_movmskps256(as_float8(mask.lo)) |
+           (uint)__builtin_ia32_movmskps256(as_float8(mask.hi)) << 8;
 #else
     const int16 bit = {1 << 0, 1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
                        1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
