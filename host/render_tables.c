@@ -112,6 +112,7 @@ static status take_knots(render_tables *t, device *dev, const scene *s, const bo
 
     TRY(knots_find(&t->knots, t->bands, s->air, through != NULL));
     const knots *k = t->knots;
+    if (k->span == 0) goto out;
     picked = malloc((size_t)rows * k->at->sample_count * sizeof *picked + 1);
     NEED(picked, STATUS_MEMORY, "no memory for the emissivity of %u materials", s->material_count);
     knots_pick(k, emissivity_rows, rows, samples, picked);
@@ -119,7 +120,6 @@ static status take_knots(render_tables *t, device *dev, const scene *s, const bo
     TRY(device_allocate(dev, &t->knot_rows,
                         (size_t)k->at->row_count * k->at->sample_count * sizeof(float),
                         k->at->rows));
-    if (k->span == 0) goto out;
     const size_t blocks = samples / SPECTRA_BLOCK;
     TRY(device_allocate(dev, &t->knot_first, blocks * sizeof *k->first, k->first));
     TRY(device_allocate(dev, &t->knot_share, blocks * k->span * SPECTRA_BLOCK * sizeof *k->share,

@@ -17,8 +17,8 @@ typedef struct render_tables {
     spectra *bands;
     device_memory spectrum_rows, emissivity_rows, extinction_rows, band_records, band_weights,
         band_emissivity, ln_radiance;
-    /* Exact mode: the same at knots, how samples lie between them, and over blocks of knots, as
-     * interreflection.h takes them. */
+    /* Exact mode: the same at knots and how samples lie between them, NULL where all samples are
+     * knots; and over blocks of knots, as interreflection.h takes them. */
     knots *knots;
     device_memory knot_rows, knot_emissivity, knot_first, knot_share;
     interreflection_spectra blocks;

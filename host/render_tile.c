@@ -279,6 +279,7 @@ static status colour(const render_tile_memory *t, const render_shared *r)
     if (has_incident(r)) {
         TRY(interreflection_set_sun(r->lights, &r->frame));
         if (t->gloss) TRY(cast_gloss(t, r, &frame));
+        const bool all_are_knots = frame.knot_span == 0;
         radiometry_record at_knots = frame;
         at_knots.sample_count = frame.knot_count;
         const incident_pixels pixels = {
@@ -291,8 +292,8 @@ static status colour(const render_tile_memory *t, const render_shared *r)
             .facet_background = interreflection_background(r->lights),
             .light = interreflection_rows(r->lights),
             .light_length = r->tables.blocks.sample_count,
-            .spectra = r->tables.knot_rows,
-            .emissivity = r->tables.knot_emissivity,
+            .spectra = all_are_knots ? r->tables.spectrum_rows : r->tables.knot_rows,
+            .emissivity = all_are_knots ? r->tables.emissivity_rows : r->tables.knot_emissivity,
             .bodies = r->bodies,
             .extinction = r->tables.extinction_rows,
         };
