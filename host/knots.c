@@ -194,7 +194,8 @@ status knots_find(knots **out, const spectra *s, const atmosphere *air, bool all
     NEED(k, STATUS_MEMORY, "no memory for knots");
     TRY(find_distinct(&d, s));
     mark_points(&d, air->wavenumber_cm1[0], air->wavenumber_step_cm1);
-    mark_points(&d, EMISSIVITY_FIRST_CM1, EMISSIVITY_STEP_CM1);
+    if (air->wavenumber_step_cm1 < EMISSIVITY_STEP_CM1)
+        mark_points(&d, EMISSIVITY_FIRST_CM1, EMISSIVITY_STEP_CM1);
     mark_ends(&d);
     mark_far(&d);
     TRY(list(k, &d, s->sample_count, all));

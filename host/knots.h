@@ -19,8 +19,8 @@ typedef struct knots {
     float *share;
 } knots;
 
-/* Finds knots: where a table can bend, that is at points of the database and of emissivities, at ends of
- * runs of samples, and no more than KNOT_STEPS apart. The weights of samples go to the knots that
+/* Finds knots: where a table can bend, that is at points of the database, and at those of emissivities
+ * where the database's are closer; at ends of runs of samples; and no more than KNOT_STEPS apart. The weights of samples go to the knots that
  * they lie between.
  *   all   every sample: where extinction bends spectra
  * Fails with STATUS_MEMORY. */

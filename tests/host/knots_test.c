@@ -142,6 +142,25 @@ static void every_sample_is_one_where_that_is_asked_for(void **state)
     spectra_free(s);
 }
 
+/* Of emissivities every 100 cm-1, as of the database, one in the middle between its points: they are no knots. */
+static void a_coarse_database_alone_has_knots(void **state)
+{
+    band visible = {
+        .name = "visible", .low_um = 1e4 / 17300.0, .high_um = 1e4 / 14700.0, .gain = 1.0};
+    spectra *s = NULL;
+    knots *k = NULL;
+
+    (void)state;
+    for (int i = 0; i < POINTS; i++) wavenumber_cm1[i] = 17400.0 - 100.0 * i;
+    air.wavenumber_step_cm1 = 100.0;
+    assert_int_equal(spectra_build(&s, &visible, 1, &air, false, false), STATUS_OK);
+    assert_int_equal(knots_find(&k, s, &air, false), STATUS_OK);
+    for (uint32_t i = 0; i < k->at->sample_count; i++)
+        assert_near(fmod(k->at->wavenumber_cm1[i] + 50.0, 100.0), 50.0, 1e-6);
+    knots_free(k);
+    spectra_free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -150,6 +169,7 @@ int main(void)
         cmocka_unit_test(weights_go_to_the_knots),
         cmocka_unit_test(no_knot_lies_between_two_runs),
         cmocka_unit_test(every_sample_is_one_where_that_is_asked_for),
+        cmocka_unit_test(a_coarse_database_alone_has_knots), /* the last: it changes the database */
     };
 
     return cmocka_run_group_tests(tests, make_database, NULL);
