@@ -117,21 +117,25 @@ static spectrum mean_background(const pixel_state *pixel, spectra_tables tables,
     return see_through(radiance, tables, frame, TRANSMISSION_BACKGROUND, block);
 }
 
-/* A row of what is known at knots, at samples. */
-static spectrum between_knots(spectra_tables tables, radiometry_record frame,
-                              global const float *row, uint block)
+/* What rays brought, which is known at knots, at samples. */
+static from_above between_knots(spectra_tables tables, radiometry_record frame, uint block)
 {
-    spectrum sum = (spectrum)0.0f;
+    global const float *sky = tables.incident, *background = sky + frame.knot_count;
+    from_above out = {(spectrum)0.0f, (spectrum)0.0f};
 
-    if (frame.knot_span == 0u) return spectrum_load(row, block);
+    if (frame.knot_span == 0u)
+        return (from_above){spectrum_load(sky, block), spectrum_load(background, block)};
     const uint sample = block * SPECTRUM_WIDTH, whole = sample / SPECTRA_BLOCK;
-    global const float *at = row + tables.knot_first[whole];
+    const uint first = tables.knot_first[whole];
     global const float *share = tables.knot_share +
                                 (size_t)whole * frame.knot_span * SPECTRA_BLOCK +
                                 sample % SPECTRA_BLOCK;
-    for (uint k = 0; k < frame.knot_span; k++)
-        sum = fma((spectrum)at[k], spectrum_load(share + k * SPECTRA_BLOCK, 0u), sum);
-    return sum;
+    for (uint k = 0; k < frame.knot_span; k++) {
+        const spectrum own = spectrum_load(share + k * SPECTRA_BLOCK, 0u);
+        out.sky = fma((spectrum)sky[first + k], own, out.sky);
+        out.background = fma((spectrum)background[first + k], own, out.background);
+    }
+    return out;
 }
 
 static from_above look_above(const pixel_state *pixel, spectra_tables tables,
@@ -139,11 +143,7 @@ static from_above look_above(const pixel_state *pixel, spectra_tables tables,
 {
     from_above out = {(spectrum)0.0f, (spectrum)0.0f};
 
-    if (tables.incident) {
-        out.sky = between_knots(tables, frame, tables.incident, block);
-        out.background = between_knots(tables, frame, tables.incident + frame.knot_count, block);
-        return out;
-    }
+    if (tables.incident) return between_knots(tables, frame, block);
     if (pixel->shape_factor > 0.0f)
         out.sky = pixel->shape_factor *
                   (pixel->interaction == INTERACTION_DIFFUSE
