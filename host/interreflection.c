@@ -4,8 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Few, so that light goes on only where it matters. */
-enum { CHUNK = 1 << 8 };
+/* Few, so that light goes on only where it matters; many, so that launches take longer than it takes to
+ * make them. */
+enum { CHUNK = 1 << 10 };
 
 /* Facets that pass light on together. */
 typedef struct chunk {
