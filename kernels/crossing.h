@@ -48,8 +48,8 @@ static inline uint crossing_meets(const ray_frame *f, global const bvh_block *bl
     const float8 t = crossing_side(c, x[1], y[1], x[0], y[0]);
     const int8 ahead = (determinant != 0.0f) & (range > 0.0f);
     *out_range = range;
-    *out_exits = ray_mask((p < 0.0f) & (q < 0.0f) & (t < 0.0f) & ahead);
-    return ray_mask((p > 0.0f) & (q > 0.0f) & (t > 0.0f) & ahead);
+    *out_exits = mask_of_8((p < 0.0f) & (q < 0.0f) & (t < 0.0f) & ahead);
+    return mask_of_8((p > 0.0f) & (q > 0.0f) & (t > 0.0f) & ahead);
 }
 
 /* Adds the crossings of a leaf. Those behind the limit count at the limit: they tell what the ray is

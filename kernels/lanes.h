@@ -3,7 +3,7 @@
 #ifndef LANES_H
 #define LANES_H
 
-#include "dialect.h"
+#include "mask.h"
 
 #if !defined(LANES_WIDTH) && defined(__OPENCL_C_VERSION__)
 #define LANES_WIDTH 16
@@ -78,21 +78,7 @@ static inline void lanes_write(lanes from, float *to)
 /* A bit for every lane of a comparison. */
 static inline uint lanes_bits_of(lanes_mask mask)
 {
-#if defined(__AVX512DQ__) && !defined(RAY_PORTABLE)
-    return (ushort)__builtin_ia32_cvtd2mask512(mask);
-#elif defined(__AVX__) && !defined(RAY_PORTABLE)
-    return (uint)__builtin_ia32_movmskps256(as_float8(mask.lo)) |
-           (uint)__builtin_ia32_movmskps256(as_float8(mask.hi)) << 8;
-#else
-    const int16 bit = {1 << 0, 1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
-                       1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
-    const int16 bits = mask & bit;
-    const int8 eight = bits.lo | bits.hi;
-    const int4 four = eight.lo | eight.hi;
-    const int2 two = four.lo | four.hi;
-
-    return (uint)(two.x | two.y);
-#endif
+    return mask_of_16(mask);
 }
 
 #else

@@ -8,6 +8,7 @@
 #ifndef RAY_H
 #define RAY_H
 
+#include "mask.h"
 #include "records.h"
 #include "triangle.h"
 
@@ -63,19 +64,6 @@ static inline ray_frame ray_frame_of(const ray *r)
     return f;
 }
 
-/* The signs of eight lanes as bits. */
-static inline uint ray_mask(const int8 lanes)
-{
-#if defined(__AVX__) && !defined(RAY_PORTABLE)
-    return (uint)__builtin_ia32_movmskps256(as_float8(lanes));
-#else
-    const int8 bits = lanes & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
-    const int4 fours = bits.lo | bits.hi;
-    const int2 twos = fours.lo | fours.hi;
-    return (uint)(twos.x | twos.y);
-#endif
-}
-
 static inline float8 ray_least(const float8 a, const float8 b)
 {
     return a < b ? a : b;
@@ -101,7 +89,7 @@ static inline uint ray_enters(const ray_frame *f, global const bvh_node *node, c
         to = ray_least(fma(b, (float8)f->reciprocal[k], (float8)f->far[k]), to);
     }
     *out_range = from;
-    return ray_mask(from <= to);
+    return mask_of_8(from <= to);
 }
 
 /* Finds the triangles that the ray meets up to `limit`: a bit each, and where. */
@@ -122,11 +110,11 @@ static inline uint ray_meets(const ray_frame *f, global const bvh_block *block, 
     const float8 c = x[1] * y[0] - y[1] * x[0];
     const int8 front = ray_least(ray_least(a, b), c) >= 0.0f;
     const int8 back = ray_most(ray_most(a, b), c) <= f->back;
-    if (ray_mask(front | back) == 0) return 0;
+    if (mask_of_8(front | back) == 0) return 0;
     const float8 determinant = (a + b) + c;
     const float8 range = ((a * z[0] + b * z[1]) + c * z[2]) * s.scale_z / determinant;
     *out_range = range;
-    return ray_mask((front | back) & (range > 0.0f) & (range <= limit));
+    return mask_of_8((front | back) & (range > 0.0f) & (range <= limit));
 }
 
 /* The first block of a leaf. */

@@ -27,16 +27,6 @@ typedef struct ray_lanes {
     ray_lanes_bound bound[3];
 } ray_lanes;
 
-/* The signs of the lanes as bits. */
-static inline uint ray_lanes_mask(const int16 lanes)
-{
-#if defined(__AVX512DQ__) && !defined(RAY_PORTABLE)
-    return (ushort)__builtin_ia32_cvtd2mask512(lanes);
-#else
-    return ray_mask(lanes.lo) | ray_mask(lanes.hi) << 8;
-#endif
-}
-
 /* Takes the lowest bit of a mask. */
 static inline uint ray_lanes_next(uint *mask)
 {
@@ -88,7 +78,7 @@ static inline void ray_lanes_set_shear(ray_lanes *f, const float16 o[3], const f
     const int16 along_z = fabs(d[2]) > (y_over_x ? fabs(d[1]) : fabs(d[0]));
     const int16 along_y = y_over_x & ~along_z;
     const float16 z = along_z ? d[2] : along_y ? d[1] : d[0];
-    const uint y_lanes = ray_lanes_mask(along_y), z_lanes = ray_lanes_mask(along_z);
+    const uint y_lanes = mask_of_16(along_y), z_lanes = mask_of_16(along_z);
 
     f->along_y = along_y;
     f->along_z = along_z;
@@ -163,7 +153,7 @@ static inline ray_lanes ray_lanes_of(const float origin[3][16], const float dire
         f.reciprocal[k] = 1.0f / (fabs(d[k]) < 1e-18f ? least : d[k]);
         f.near[k] = -o[k] * f.reciprocal[k] - pad * fabs(f.reciprocal[k]);
         f.far[k] = -o[k] * f.reciprocal[k] + pad * fabs(f.reciprocal[k]);
-        const uint negative = ray_lanes_mask(f.reciprocal[k] < 0.0f);
+        const uint negative = mask_of_16(f.reciprocal[k] < 0.0f);
         const uint is_negative = negative >> first & 1;
         f.octant |= is_negative << k;
         f.near_plane[k] = 8 * k + 24 * is_negative;
@@ -191,7 +181,7 @@ static inline uint ray_lanes_reach(const ray_lanes *f, global const bvh_node *no
                                 fma(b, (float8)n->reciprocal[1], (float8)n->far[1])),
                        to);
     }
-    return ray_mask(from <= to);
+    return mask_of_8(from <= to);
 }
 
 /* Finds the rays that enter a child before their limits, and where: all bits of a lane.

@@ -60,7 +60,7 @@ INLINE void ray_leaf_closest(const ray_lanes *f, global const bvh_block *blocks,
             e[k] = ray_lanes_edges_of_one(f, blocks + b, i + k, axis);
             inside[k] = ray_lanes_inside(&e[k], f->front, f->back);
         }
-        if ((ray_lanes_mask(inside[0] | inside[1]) & rays) == 0) continue;
+        if ((mask_of_16(inside[0] | inside[1]) & rays) == 0) continue;
         UNROLL
         for (uint k = 0; k < 2; k++)
             ray_leaf_take(best, &e[k], active & inside[k], b * 8 + i + k, blocks[b].facet[i + k]);
@@ -78,7 +78,7 @@ INLINE uint ray_leaf_any(const ray_lanes *f, global const bvh_block *blocks, con
         const ray_lanes_edges e = ray_lanes_edges_of_one(f, block, i, axis);
         met |= ray_lanes_inside(&e, f->front, f->back) & ray_lanes_before(&e);
     }
-    return ray_lanes_mask(met);
+    return mask_of_16(met);
 }
 
 /* Looks for nearer triangles, two lanes at a time.
@@ -99,7 +99,7 @@ INLINE void ray_leaf_closest_two(const ray_lanes *f, global const bvh_block *blo
         const int16 inside = ray_lanes_inside(&e, ray_lanes_two(&f->front, lane[0], lane[1]),
                                               ray_lanes_two(&f->back, lane[0], lane[1]));
         const float16 limit = ray_lanes_two(&before.range, lane[0], lane[1]);
-        uint met = ray_lanes_mask(inside & (range > 0.0f) & (range <= limit));
+        uint met = mask_of_16(inside & (range > 0.0f) & (range <= limit));
         while (met) {
             const uint i = ray_lanes_next(&met), side = i / 8;
             const ray_hit hit = {((const float *)&range)[i], blocks[b].facet[i % 8], b * 8 + i % 8};
@@ -122,7 +122,7 @@ INLINE uint ray_leaf_any_two(const ray_lanes *f, global const bvh_block *blocks,
         const ray_lanes_edges e = ray_lanes_edges_of_two(f, block, a, b, axis);
         const int16 inside =
             ray_lanes_inside(&e, ray_lanes_two(&f->front, a, b), ray_lanes_two(&f->back, a, b));
-        const uint own = ray_lanes_mask(inside & ray_lanes_before(&e));
+        const uint own = mask_of_16(inside & ray_lanes_before(&e));
         met |= (uint)((own & 0xff) != 0) << a | (uint)(own >> 8 != 0) << b;
     }
     return met;

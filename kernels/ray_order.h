@@ -36,7 +36,7 @@ static inline uint ray_order_is_mixed(global const float *direction, const uint 
             const int16 bits = as_int16(vload16(0, direction + k * (size_t)stride + i));
             differs |= bits ^ bits.s0;
         }
-        mixed += ray_lanes_mask(differs) != 0;
+        mixed += mask_of_16(differs) != 0;
     }
     return mixed > RAY_BATCH / 16 / 2;
 }

@@ -181,7 +181,7 @@ INLINE uint ray_packet_open(const ray_lanes *f, global const bvh_node *nodes,
         if (!(mask >> child & 1)) continue;
         float16 range;
         const int16 enters = ray_lanes_enter(f, node, child, coherent, limit, &range);
-        if (ray_lanes_mask(enters) == 0) continue;
+        if (mask_of_16(enters) == 0) continue;
         ray_fetch(nodes, blocks, node->child[child]);
         stack->word[depth] = node->child[child];
         stack->entered[depth++] = enters ? range : (float16)NAN;
@@ -203,7 +203,7 @@ static inline void ray_packet_closest(global const bvh_node *nodes, global const
     w = ray_packet_start(p);
     best.range = active ? (float16)MAXFLOAT : (float16)-1.0f;
     for (;;) {
-        const uint rays = ray_lanes_mask(active);
+        const uint rays = mask_of_16(active);
         const float16 limit = best.range * RAY_SLACK;
         if (word & BVH_LEAF)
             ray_packet_closest_leaf(&w, nodes, blocks, word, active, rays, &best);
@@ -216,7 +216,7 @@ static inline void ray_packet_closest(global const bvh_node *nodes, global const
         do {
             if (depth == 0) goto done;
             active = stack.entered[--depth] <= best.range * RAY_SLACK;
-        } while (ray_lanes_mask(active) == 0);
+        } while (mask_of_16(active) == 0);
         word = stack.word[depth];
     }
 done:
@@ -238,7 +238,7 @@ INLINE uint ray_packet_open_any(const ray_lanes *f, global const bvh_node *nodes
         const uint child = ray_lanes_next(&mask);
         float16 range;
         const int16 enters = ray_lanes_enter(f, node, child, coherent, MAXFLOAT, &range);
-        const uint lanes = active & ray_lanes_mask(enters);
+        const uint lanes = active & mask_of_16(enters);
         ray_fetch(nodes, blocks, node->child[child]);
         stack[depth] = (ulong)lanes << 32 | node->child[child];
         depth += lanes != 0;

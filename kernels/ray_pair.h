@@ -53,7 +53,7 @@ INLINE uint ray_pair_reach(const ray_pair_walk *w, global const bvh_node *node)
                                             fma(b, n->reciprocal[1], n->far[1])),
                              to);
     }
-    const uint mask = ray_lanes_mask(from <= to);
+    const uint mask = mask_of_16(from <= to);
     return (mask | mask >> 8) & 0xff;
 }
 
@@ -69,9 +69,9 @@ INLINE uint ray_pair_open(const ray_pair_walk *w, global const bvh_node *nodes,
         const uint child = ray_lanes_next(&mask);
         float16 range;
         const uint a =
-            ray_lanes_mask(ray_lanes_enter(&w->of[0].lanes, node, child, 1, MAXFLOAT, &range));
+            mask_of_16(ray_lanes_enter(&w->of[0].lanes, node, child, 1, MAXFLOAT, &range));
         const uint b =
-            ray_lanes_mask(ray_lanes_enter(&w->of[1].lanes, node, child, 1, MAXFLOAT, &range));
+            mask_of_16(ray_lanes_enter(&w->of[1].lanes, node, child, 1, MAXFLOAT, &range));
         const uint lanes = active & (a | b << 16);
         ray_fetch(nodes, blocks, node->child[child]);
         stack[depth] = (ulong)lanes << 32 | node->child[child];
