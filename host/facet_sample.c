@@ -3,7 +3,6 @@
 #include "polygon.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
 enum { LEVEL_MOST = 3, POINTS_EACH = 2, POINTS_LEAST = 1 << 16 };
@@ -107,22 +106,25 @@ static uint8_t level_of(int exponent, int lowest)
     return (uint8_t)(level < LEVEL_MOST ? level : LEVEL_MOST);
 }
 
+/* Points that facets have together.
+ *   facets   shape (EXPONENTS): how many have an area of that exponent */
+static uint64_t count_points(const uint32_t *facets, int lowest)
+{
+    uint64_t points = 0;
+
+    for (int e = 0; e < EXPONENTS; e++)
+        points += (uint64_t)facets[e] * facet_sample_count(level_of(e + EXPONENT_LEAST, lowest));
+    return points;
+}
+
 void facet_sample_levels(uint8_t *out_level, const float *area_m2, uint32_t count)
 {
     const uint64_t each = (uint64_t)count * POINTS_EACH;
     const uint64_t most = each > POINTS_LEAST ? each : POINTS_LEAST;
     uint32_t facets[EXPONENTS] = {0};
     int lowest = EXPONENT_LEAST;
-    bool is_enough = false;
 
     for (uint32_t i = 0; i < count; i++) facets[exponent_of(area_m2[i]) - EXPONENT_LEAST]++;
-    while (!is_enough) {
-        uint64_t points = 0;
-        for (int e = 0; e < EXPONENTS; e++)
-            points +=
-                (uint64_t)facets[e] * facet_sample_count(level_of(e + EXPONENT_LEAST, lowest));
-        is_enough = points <= most || lowest > EXPONENT_LEAST + EXPONENTS;
-        lowest += !is_enough;
-    }
+    while (count_points(facets, lowest) > most) lowest++;
     for (uint32_t i = 0; i < count; i++) out_level[i] = level_of(exponent_of(area_m2[i]), lowest);
 }

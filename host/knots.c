@@ -79,7 +79,7 @@ static status list(knots *k, const distinct_samples *d, uint32_t sample_count, b
     uint32_t count = 0, padded = sample_count;
 
     for (uint32_t i = 0; i < d->count; i++) count += d->is_knot[i];
-    if (!all) padded = (count + SPECTRA_BLOCK - 1) / SPECTRA_BLOCK * SPECTRA_BLOCK;
+    if (!all) padded = spectra_padded(count);
     all = padded >= sample_count;
     k->at = calloc(1, sizeof *k->at);
     k->sample = malloc(padded * sizeof *k->sample);

@@ -90,7 +90,7 @@ static status open_hemispheres(render *r)
     TRY(shape_factor_open(&r->shared.grid, dev, reading, s->hemisphere_zenith_step_deg,
                           s->hemisphere_azimuth_step_deg));
     /* A pixel gets the mean of many facets, and reflects what they reflect: few rays each will do. */
-    TRY(shape_factor_open_thinned(&r->shared.facet_grid, dev, r->shared.grid));
+    if (!s->thesis) TRY(shape_factor_open_thinned(&r->shared.facet_grid, dev, r->shared.grid));
     TRY(shape_factor_open(&r->shared.coarse_grid, dev, reading, coarse_zenith_step_deg,
                           coarse_azimuth_step_deg));
 out:

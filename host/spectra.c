@@ -8,7 +8,7 @@
 #define SMALLEST_TRANSMISSION 1e-30 /* has a logarithm, and is none */
 #define SLACK 1e-6                  /* of a step between samples, for its rounding */
 
-static uint32_t padded(uint32_t count)
+uint32_t spectra_padded(uint32_t count)
 {
     return (count + SPECTRA_BLOCK - 1) / SPECTRA_BLOCK * SPECTRA_BLOCK;
 }
@@ -282,7 +282,7 @@ status spectra_coarsen(spectra **out, const spectra *s)
     float *wavelength_um = malloc(s->sample_count * sizeof *wavelength_um);
 
     NEED(coarse && wavelength_um, STATUS_MEMORY, "no memory for coarse spectra");
-    coarse->sample_count = padded(s->sample_count / LIGHT_BLOCK);
+    coarse->sample_count = spectra_padded(s->sample_count / LIGHT_BLOCK);
     coarse->row_count = s->row_count;
     coarse->wavenumber_cm1 = calloc(coarse->sample_count, sizeof(double));
     coarse->rows = calloc((size_t)s->row_count * coarse->sample_count, sizeof(float));

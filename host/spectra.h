@@ -29,6 +29,9 @@ status spectra_build(spectra **out, const band *bands, uint32_t band_count, cons
                      bool by_points, bool thesis);
 void spectra_free(spectra *s);
 
+/* A count of samples in whole blocks of SPECTRA_BLOCK. */
+uint32_t spectra_padded(uint32_t count);
+
 /* Takes means over blocks of LIGHT_BLOCK samples, weighted by the response, instead of samples;
  * Planck's law is that of the blocks' mean wavelengths. There are no bands in it. */
 status spectra_coarsen(spectra **out, const spectra *s);
