@@ -1,6 +1,8 @@
 #define CL_TARGET_OPENCL_VERSION 120
 #include "device.h"
 
+#include "../kernels/records.h"
+
 #include "device_error.h"
 #include "kernel_source.h"
 #include "pocl_affinity.h"
@@ -423,6 +425,12 @@ device_shape device_ray_shape(const device *dev, size_t rays, size_t y)
 
     /* A packet's stack is large: a group of few stays in the cache. */
     return (device_shape){{(rays + lanes - 1) / lanes, y}, lanes == 1 ? 64 : 4};
+}
+
+device_shape device_bundle_shape(const device *dev, size_t points, size_t y)
+{
+    if (dev->info.ray_lanes == 1) return device_ray_shape(dev, points, y);
+    return (device_shape){{(points + RAY_BUNDLE - 1) / RAY_BUNDLE, y}, 1};
 }
 
 status device_times(device *dev, const device_time **out, size_t *out_count)

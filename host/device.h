@@ -72,6 +72,10 @@ static inline device_shape shape2(size_t x, size_t y)
 /* Launches whose work-items have ray_lanes rays each: `rays` of them along x. */
 device_shape device_ray_shape(const device *dev, size_t rays, size_t y);
 
+/* Launches whose work-items look at RAY_BUNDLE points where rays go in packets, else at one: `points`
+ * of them along x. */
+device_shape device_bundle_shape(const device *dev, size_t points, size_t y);
+
 typedef struct device_argument {
     size_t size;
     const void *value;

@@ -47,7 +47,7 @@ static status trace_some(facet_light *out, const facet_light_world *w, uint32_t 
         facet_sample(at + i * FACET_SAMPLES, w->shape, first + i, 1);
     TRY(device_allocate(w->dev, &hit, points * sizeof *at, at));
     TRY(device_allocate(w->dev, &history, bytes, NULL));
-    TRY(sun_history_trace(w->sun, w->rays, w->facets, points, hit, history));
+    TRY(sun_history_trace(w->sun, w->rays, w->facets, points, hit, NULL, history));
     TRY(device_download(w->dev, history, 0, bytes, traced));
     for (uint32_t i = 0; i < count; i++)
         set_mean(out, traced + (size_t)i * FACET_SAMPLES * words, words, first + i);

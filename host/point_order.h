@@ -7,18 +7,25 @@
 
 #include "device.h"
 
-/* Puts points of one normal and one material together, as many as fill whole groups of PIXEL_GROUP,
- * in the order in which a first one appears; behind them the others. Among equals the order stays.
- *   hit     shape (count); facet: per facet, the ground's too
- *   order   shape (count): the point that stands at each place
+/* Points of an image, row after row. */
+typedef struct point_tile {
+    uint32_t first, count;
+    uint32_t columns; /* of the image */
+} point_tile;
+
+/* Puts points of one normal and one material together: first as many of each as fill whole groups of
+ * PIXEL_GROUP, behind them the others. Of one kind those follow each other that stand in one square of
+ * the image.
+ *   hit     shape (tile->count); facet: per facet, the ground's too
+ *   order   shape (tile->count): the point that stands at each place
  * Fails with STATUS_MEMORY. */
 status point_order_fill(uint32_t *order, const hit_record *hit, const facet_record *facet,
-                        uint32_t count);
+                        const point_tile *tile);
 
 /* The same on a device.
- *   hit         hit_record, shape (count)
- *   out_order   uint32, shape (count); out_hit: hit_record, shape (count): the points in that order */
-status point_order_run(device *dev, device_memory hit, const facet_record *facet, uint32_t count,
-                       device_memory out_order, device_memory out_hit);
+ *   hit         hit_record, shape (tile->count)
+ *   out_order   uint32, shape (tile->count); out_hit: hit_record, the points in that order */
+status point_order_run(device *dev, device_memory hit, const facet_record *facet,
+                       const point_tile *tile, device_memory out_order, device_memory out_hit);
 
 #endif

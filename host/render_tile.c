@@ -181,10 +181,11 @@ static status trace(const render_tile_memory *t, const render_shared *r)
     const shape_factor_tables tables = {r->tables.facets, facet_k, r->tables.materials};
     const device_memory nodes = ray_scene_nodes(r->rays), blocks = ray_scene_blocks(r->rays);
     const world_record world = ray_scene_world(r->rays);
+    const point_tile where = {t->first, t->count, r->frame.columns * t->samples};
 
     TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count, t->hit));
     TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->hit, t->lit));
-    TRY(point_order_run(r->dev, t->hit, r->tables.facet, t->count, t->points.order, t->points.hit));
+    TRY(point_order_run(r->dev, t->hit, r->tables.facet, &where, t->points.order, t->points.hit));
     TRY(shape_factor_run(r->is_coarse ? r->coarse_grid : r->grid, r->rays, &tables,
                          has_incident(r) ? r->frame.sun : NULL, &t->points, t->background));
     TRY(device_run(r->dev, "mirror", shape1(t->count), ARG(t->count), ARG(r->camera), ARG(world),
@@ -313,8 +314,8 @@ status render_tile_compute(const render_tile_memory *t, const render_shared *r)
         TRY(temperature_of_hits(r->warmth, t->count, t->hit, TRUTH_PLANES, t->temperature_k,
                                 t->truth_planes));
     else
-        TRY(temperature_of_pixels(r->warmth, r->rays, t->count, t->hit, TRUTH_PLANES, t->history,
-                                  t->temperature_k, t->truth_planes));
+        TRY(temperature_of_pixels(r->warmth, r->rays, t->count, t->hit, t->points.order,
+                                  TRUTH_PLANES, t->history, t->temperature_k, t->truth_planes));
     TRY(colour(t, r));
 out:
     return rc;

@@ -8,7 +8,7 @@
 enum { CELL_LIMIT = 1 << 22, CELLS_AT_ONCE = 72 };
 
 /* Of a ring's cells one of so many stays when they are thinned, but no fewer than these. */
-enum { THIN = 3, THINNED_LEAST = 4 };
+enum { THIN = 6, THINNED_LEAST = 2 };
 
 static const double radian = 0.017453292519943295;
 
@@ -182,7 +182,7 @@ status shape_factor_open_thinned(shape_factor_grid **out, device *dev,
 
     NEED(weighs, STATUS_MEMORY, "no memory for a hemisphere");
     for (uint32_t i = 0; i < grid->cell_count; i++)
-        weighs[i] = (i % n + i / n) % step == 0 ? (float)step : 0.0f;
+        weighs[i] = (i % n + step / 2 * (i / n)) % step == 0 ? (float)step : 0.0f;
     TRY(open_some(out, dev, grid, weighs));
 out:
     free(weighs);
@@ -217,7 +217,7 @@ status shape_factor_trace(const shape_factor_grid *grid, const ray_scene *scene,
     const uint32_t at_once = device_describe(dev)->ray_lanes == 1 ? 1 : CELLS_AT_ONCE;
     const uint32_t cells = (grid->cell_count + at_once - 1) / at_once;
 
-    return device_run(dev, "hemisphere", device_ray_shape(dev, points->count, cells),
+    return device_run(dev, "hemisphere", device_bundle_shape(dev, points->count, cells),
                       ARG(points->count), ARG(grid->cell_count), ARG(towards[0]), ARG(towards[1]),
                       ARG(towards[2]), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
                       ARG(points->hit), ARG(points->met));

@@ -36,9 +36,9 @@ uint32_t shape_factor_part_of(uint32_t cell, uint32_t parts);
 status shape_factor_open_part(shape_factor_grid **out, device *dev, const shape_factor_grid *grid,
                               uint32_t part, uint32_t parts);
 
-/* Opens every third cell of each ring, those of a ring a cell further on than those of the one below,
- * with three times their weights: for points of which many go into a mean. The whole grid where that
- * leaves fewer than four in a ring, or does not go up into the ring's azimuths. */
+/* Opens every sixth cell of each ring, those of a ring midway between those of the one below, with six
+ * times their weights: for points of which many go into a mean. The whole grid where that leaves fewer
+ * than two in a ring, or does not go up into the ring's azimuths. */
 status shape_factor_open_thinned(shape_factor_grid **out, device *dev,
                                  const shape_factor_grid *grid);
 void shape_factor_free(shape_factor_grid *grid);

@@ -98,16 +98,17 @@ uint32_t sun_history_words(const sun_history *history)
 
 /* Casts the rays towards the suns of a table; slots without a sun get no bit. */
 static status trace(const sun_history *history, const ray_scene *scene, device_memory facets,
-                    uint32_t count, device_memory sun, device_memory hit, device_memory out_lit)
+                    uint32_t count, device_memory sun, device_memory hit, device_memory order,
+                    device_memory out_lit)
 {
     status rc = STATUS_OK;
     const world_record world = ray_scene_world(scene);
     const device_memory nodes = ray_scene_nodes(scene), blocks = ray_scene_blocks(scene);
 
     TRY(device_run(history->dev, "sun_history",
-                   device_ray_shape(history->dev, count, history->day.word_count), ARG(count),
+                   device_bundle_shape(history->dev, count, history->day.word_count), ARG(count),
                    ARG(history->day), ARG(world), ARG(nodes), ARG(blocks), ARG(facets), ARG(sun),
-                   ARG(hit), ARG(out_lit)));
+                   ARG(hit), ARG(order), ARG(out_lit)));
     if (!history->dimming) goto out;
     const crossing_world around = bodies_world(history->dimming);
     const device_memory inner = bodies_nodes(history->dimming);
@@ -157,8 +158,8 @@ out:
 
 /* Traces what an entry does not know yet, and brings it and out_lit up to date. */
 static status trace_new(const sun_history *history, const ray_scene *scene, device_memory facets,
-                        uint32_t count, device_memory hit, sun_memory_entry *entry,
-                        device_memory out_lit)
+                        uint32_t count, device_memory hit, device_memory order,
+                        sun_memory_entry *entry, device_memory out_lit)
 {
     status rc = STATUS_OK;
     const uint32_t stride = history->day.stride;
@@ -168,7 +169,7 @@ static status trace_new(const sun_history *history, const ray_scene *scene, devi
 
     NEED(mask && lit, STATUS_MEMORY, "no memory for the sun's day of %u points", count);
     TRY(take_new_suns(history, entry->last, &sun, mask));
-    TRY(trace(history, scene, facets, count, sun, hit, out_lit));
+    TRY(trace(history, scene, facets, count, sun, hit, order, out_lit));
     TRY(device_download(history->dev, out_lit, 0, bytes, lit));
     for (size_t i = 0; i < (size_t)count * stride; i++)
         entry->lit[i] = (entry->lit[i] & ~mask[i % stride]) | lit[i];
@@ -182,7 +183,7 @@ out:
 
 static status trace_remembered(const sun_history *history, const ray_scene *scene,
                                device_memory facets, uint32_t count, device_memory hit,
-                               device_memory out_lit)
+                               device_memory order, device_memory out_lit)
 {
     status rc = STATUS_OK;
     const size_t bytes = (size_t)count * history->day.stride * sizeof(uint32_t);
@@ -193,10 +194,10 @@ static status trace_remembered(const sun_history *history, const ray_scene *scen
     TRY(device_download(history->dev, hit, 0, count * sizeof *met, met));
     TRY(sun_memory_find(history->memory, met, count, history->day.stride, &entry));
     if (entry->last == SUN_MEMORY_NOTHING) {
-        TRY(trace(history, scene, facets, count, history->sun, hit, out_lit));
+        TRY(trace(history, scene, facets, count, history->sun, hit, order, out_lit));
         TRY(device_download(history->dev, out_lit, 0, bytes, entry->lit));
     } else {
-        TRY(trace_new(history, scene, facets, count, hit, entry, out_lit));
+        TRY(trace_new(history, scene, facets, count, hit, order, entry, out_lit));
     }
     entry->last = history->last;
 out:
@@ -205,10 +206,12 @@ out:
 }
 
 status sun_history_trace(const sun_history *history, const ray_scene *scene, device_memory facets,
-                         uint32_t count, device_memory hit, device_memory out_lit)
+                         uint32_t count, device_memory hit, device_memory order,
+                         device_memory out_lit)
 {
-    if (history->memory) return trace_remembered(history, scene, facets, count, hit, out_lit);
-    return trace(history, scene, facets, count, history->sun, hit, out_lit);
+    if (history->memory)
+        return trace_remembered(history, scene, facets, count, hit, order, out_lit);
+    return trace(history, scene, facets, count, history->sun, hit, order, out_lit);
 }
 
 status sun_history_times(const sun_history *history, uint32_t count, uint32_t first_plane,

@@ -33,10 +33,13 @@ uint32_t sun_history_words(const sun_history *history);
 /* Casts the rays.
  *   facets    facet_record, the ground's too
  *   hit       hit_record, shape (count)
+ *   order     uint32, shape (count): which points are looked at side by side, see point_order.h; NULL:
+ *             as they stand. No bit depends on it
  *   out_lit   uint32, shape (count, words): 1 where the sun reaches the outward side of the facet,
  *             or either side of a two-sided one. The ground plane is never in shadow (assumed) */
 status sun_history_trace(const sun_history *history, const ray_scene *scene, device_memory facets,
-                         uint32_t count, device_memory hit, device_memory out_lit);
+                         uint32_t count, device_memory hit, device_memory order,
+                         device_memory out_lit);
 
 /* Sums the bits up: hours lit in the last 24, minutes since the sun came or went.
  *   out_planes   float, shape (first_plane + 2, count); its last two rows are written, NO_VALUE

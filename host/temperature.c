@@ -176,7 +176,7 @@ static status warm_run(const temperature *t, const ray_scene *rays, const facet_
     TRY(device_allocate(t->dev, &hit, run->points * sizeof *at, at));
     TRY(device_allocate(t->dev, &history,
                         (size_t)run->points * sun_history_words(t->sun) * sizeof(uint32_t), NULL));
-    TRY(sun_history_trace(t->sun, rays, t->facets, run->points, hit, history));
+    TRY(sun_history_trace(t->sun, rays, t->facets, run->points, hit, NULL, history));
     TRY(warm_points(t, run->points, at, history, point_k));
     average(run, point_k, out_k);
 out:
@@ -323,12 +323,13 @@ out:
 }
 
 status temperature_of_pixels(const temperature *t, const ray_scene *rays, uint32_t count,
-                             device_memory hit, uint32_t first_plane, device_memory out_history,
-                             device_memory out_k, device_memory out_planes)
+                             device_memory hit, device_memory order, uint32_t first_plane,
+                             device_memory out_history, device_memory out_k,
+                             device_memory out_planes)
 {
     status rc = STATUS_OK;
 
-    TRY(sun_history_trace(t->sun, rays, t->facets, count, hit, out_history));
+    TRY(sun_history_trace(t->sun, rays, t->facets, count, hit, order, out_history));
     TRY(warm_pixels(t, count, hit, out_history, out_k));
     TRY(sun_history_times(t->sun, count, first_plane, hit, out_history, out_planes));
 out:
@@ -368,7 +369,7 @@ status temperature_day_of(const temperature *t, const ray_scene *rays, device_me
     day.temperature_k = t->model ? malloc(slots * sizeof *day.temperature_k) : NULL;
     NEED(bits && day.lit && (!t->model || day.temperature_k), STATUS_MEMORY, "no memory for a day");
     TRY(device_allocate(t->dev, &history, words * sizeof *bits, NULL));
-    TRY(sun_history_trace(t->sun, rays, t->facets, 1, hit, history));
+    TRY(sun_history_trace(t->sun, rays, t->facets, 1, hit, NULL, history));
     TRY(device_download(t->dev, history, 0, words * sizeof *bits, bits));
     TRY(device_download(t->dev, hit, 0, sizeof met, &met));
     unroll(bits, last, &day);

@@ -34,13 +34,14 @@ status temperature_of_hits(const temperature *t, uint32_t count, device_memory h
                            uint32_t first_plane, device_memory out_k, device_memory out_planes);
 
 /* Casts the rays towards the day's suns and computes the temperatures of a tile.
- *   hit           hit_record, shape (count)
+ *   hit, order    hit_record, uint32, shape (count); see sun_history_trace
  *   out_history   uint32, shape (count, words)
  *   out_k         float, shape (count); 0 where a pixel meets nothing
  *   out_planes    float, shape (first_plane + SUN_PLANES, count): the last SUN_PLANES are written */
 status temperature_of_pixels(const temperature *t, const ray_scene *rays, uint32_t count,
-                             device_memory hit, uint32_t first_plane, device_memory out_history,
-                             device_memory out_k, device_memory out_planes);
+                             device_memory hit, device_memory order, uint32_t first_plane,
+                             device_memory out_history, device_memory out_k,
+                             device_memory out_planes);
 
 /* The 24 hours up to a site's time, as a point went through them. */
 typedef struct temperature_day {

@@ -37,6 +37,9 @@ typedef struct bvh_block {
 } bvh_block;
 RECORD_SIZE(bvh_block, 320);
 
+/* Points that a work-item looks at where rays go in packets: hemisphere.cl, sun_history.cl. */
+#define RAY_BUNDLE 64u
+
 /* What a ray met. */
 typedef struct hit_record {
     float point[3];  /* on the facet, from barycentrics */

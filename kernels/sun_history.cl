@@ -1,12 +1,12 @@
-#include "ray_pair.h"
-#include "ray_queue.h"
+#include "ray_beam.h"
 
 #define LANES_WIDTH RAY_LANES
 #include "lanes.h"
+#include "ray_pair.h"
 #include "sun_history.h"
 
-/* Up to so many of a packet wait for those of other suns. */
-#define FEW_RAYS (RAY_LANES == 16 ? 11 : 0)
+/* Groups of RAY_LANES points of a work-item. */
+#define GROUPS (RAY_LANES == 16 ? RAY_BUNDLE / 16 : 1)
 
 /* Neighbouring points, and their facets as the sun sees them. */
 typedef struct lit_points {
@@ -18,13 +18,14 @@ typedef struct lit_points {
 
 /* The outward side does not depend on whence the facet is seen. */
 static lit_points take_points(const world_record *world, global const facet_record *facets,
-                              global const hit_record *hit, const uint count)
+                              global const hit_record *hit, global const uint *order,
+                              const uint first, const uint count)
 {
     lit_points out = {.met = 0};
 
     for (int k = 0; k < 3; k++) out.point[k] = out.above[k] = out.normal[k] = (lanes)0.0f;
-    for (uint i = 0; i < count; i++) {
-        const hit_record at = hit[i];
+    for (uint i = 0; i < RAY_LANES && first + i < count; i++) {
+        const hit_record at = hit[order ? order[first + i] : first + i];
         if (at.facet == RECORD_NONE) continue;
         const facet_record facet = facets[at.facet];
         const float outward = at.normal[0] * facet.normal[0] + at.normal[1] * facet.normal[1] +
@@ -60,79 +61,112 @@ static uint face_sun(const lit_points *from, const float sun[3], ray_packet *out
     return faced;
 }
 
-/* Packets of full suns, of which two are cast together. */
-typedef struct sun_pair {
-    ray_packet packet[2];
-    uint faced[2], slot[2], count;
-} sun_pair;
+/* The rays of groups of points towards one sun. */
+typedef struct sun_rays {
+    ray_packet packet[GROUPS];
+    uint faced[GROUPS]; /* a bit per lane where the sun shines on a side that it heats */
+    uint met[GROUPS];   /* a bit per lane that something shades */
+} sun_rays;
 
-static void cast_pair(sun_pair *pair, global const bvh_node *nodes, global const bvh_block *blocks,
-                      uint bits[RAY_LANES])
+#if RAY_LANES == 16
+
+/* The box of where rays leave the outward sides of facets. */
+static ray_beam_box box_outside(const lit_points *points)
 {
-    for (uint k = pair->count; k < 2; k++) pair->packet[k].alive = 0;
-    const uint met = ray_pair_any(nodes, blocks, pair->packet);
+    lanes origin[3];
 
-    for (uint k = 0; k < pair->count; k++) {
-        const uint lit = pair->faced[k] & ~(met >> 16 * k);
-        for (uint i = 0; i < RAY_LANES; i++) bits[i] |= (lit >> i & 1u) << pair->slot[k];
+    for (int k = 0; k < 3; k++) origin[k] = points->point[k] + points->above[k];
+    return ray_beam_box_of(origin, points->met);
+}
+
+/* The box of where a group's rays begin.
+ *   outside   of all its points */
+static ray_beam_box box_of(const lit_points *points, const ray_packet *packet,
+                           const ray_beam_box *outside)
+{
+    lanes origin[3];
+
+    if (!(packet->alive & points->two_sided)) return *outside;
+    for (int k = 0; k < 3; k++) origin[k] = lanes_read(packet->origin[k]);
+    return ray_beam_box_of(origin, packet->alive);
+}
+
+/* Casts the rays as a beam: it lists what they may meet, unless that is too much. */
+static void cast(sun_rays *rays, const lit_points *points, const ray_beam_box *outside,
+                 const uint groups, const float sun[3], global const bvh_node *nodes,
+                 global const bvh_block *blocks)
+{
+    ray_beam_box box[GROUPS], all;
+    ray_beam_list list;
+    uint some = 0;
+
+    for (uint g = 0; g < groups; g++) {
+        rays->met[g] = 0;
+        if (rays->packet[g].alive == 0) continue;
+        box[g] = box_of(&points[g], &rays->packet[g], &outside[g]);
+        all = some++ ? ray_beam_join(&all, &box[g]) : box[g];
     }
-    pair->count = 0;
+    if (some == 0) return;
+    const ray_beam beam = ray_beam_of(&all, sun);
+    const uint listed = ray_beam_collect(&beam, nodes, &list);
+    for (uint g = 0; g < groups; g++) {
+        if (rays->packet[g].alive == 0) continue;
+        const ray_beam own = ray_beam_of(&box[g], sun);
+        rays->met[g] = listed ? ray_beam_any(&own, &list, nodes, blocks, &rays->packet[g])
+                              : ray_packet_any(nodes, blocks, &rays->packet[g]);
+    }
 }
 
-/* Casts the rays that wait, each marked by its slot and, five bits higher, its lane. */
-static void cast_queue(ray_queue *waiting, global const bvh_node *nodes,
-                       global const bvh_block *blocks, uint bits[RAY_LANES])
-{
-    const uint reached = ray_queue_cast(waiting, nodes, blocks);
+#endif
 
-    for (uint i = 0; i < RAY_LANES; i++)
-        if (reached >> i & 1) bits[waiting->mark[i] >> 5] |= 1u << (waiting->mark[i] & 31);
-}
-
-/* Tells at which steps of a day the sun reaches points: a packet holds neighbouring points and one
- * sun, or where few points face it the rays of several suns.
- * Launch: (count / RAY_LANES, rounded up; day.word_count).
+/* Tells at which steps of a day the sun reaches points: neighbouring points go together, one sun after
+ * the other.
+ * Launch: (count / RAY_BUNDLE where RAY_LANES is 16, else count, rounded up; day.word_count).
  * sun: shape (32 day.word_count, 4), by slot: unit vector towards the sun, and 0; z 0 where the sun
  *   is down or the day has no such slot
- * facets: per facet, the ground's too; hit: (count); lit: (count, day.stride), the bits of which are
- *   written. The ground plane is never in shadow. */
+ * facets: per facet, the ground's too; hit: (count); order: (count), which points stand side by side,
+ *   NULL: as they are; lit: (count, day.stride), the bits of which are written. The ground plane is
+ *   never in shadow. */
 kernel void sun_history(const uint count, const sun_day day, const world_record world,
                         global const bvh_node *nodes, global const bvh_block *blocks,
                         global const facet_record *facets, global const float *sun,
-                        global const hit_record *hit, global uint *lit)
+                        global const hit_record *hit, global const uint *order, global uint *lit)
 {
-    const uint first = get_global_id(0) * RAY_LANES, word = get_global_id(1);
+    const uint first = get_global_id(0) * GROUPS * RAY_LANES, word = get_global_id(1);
     if (first >= count) return;
-    const uint lanes_here = min((uint)RAY_LANES, count - first);
-    uint bits[RAY_LANES] = {0};
+    const uint left = min((uint)(GROUPS * RAY_LANES), count - first);
+    uint bits[GROUPS * RAY_LANES] = {0};
+    lit_points points[GROUPS];
+    sun_rays rays;
+    uint groups = 0;
 
-    const lit_points points = take_points(&world, facets, hit + first, lanes_here);
-    ray_queue waiting = ray_queue_of(&world);
-    sun_pair pair = {.count = 0};
-
-    ray_packet_clear(&pair.packet[0], &world);
-    ray_packet_clear(&pair.packet[1], &world);
-    for (uint slot = 0; slot < 32 && points.met; slot++) {
+    for (; groups * RAY_LANES < left; groups++)
+        points[groups] = take_points(&world, facets, hit, order, first + groups * RAY_LANES, count);
+#if RAY_LANES == 16
+    ray_beam_box outside[GROUPS];
+    for (uint g = 0; g < groups; g++)
+        if (points[g].met) outside[g] = box_outside(&points[g]);
+#endif
+    for (uint slot = 0; slot < 32; slot++) {
         float direction[3];
         vstore3(vload4(32 * word + slot, sun).xyz, 0, direction);
         if (direction[2] <= 0) continue;
-        ray_packet *packet = &pair.packet[pair.count];
-        const uint faced = face_sun(&points, direction, packet);
-        if (popcount(packet->alive) > FEW_RAYS) {
-            pair.faced[pair.count] = faced;
-            pair.slot[pair.count++] = slot;
-            if (pair.count == 2) cast_pair(&pair, nodes, blocks, bits);
-            continue;
+        for (uint g = 0; g < groups; g++) {
+            ray_packet_clear(&rays.packet[g], &world);
+            rays.faced[g] = face_sun(&points[g], direction, &rays.packet[g]);
         }
-        for (uint i = 0; i < RAY_LANES; i++) {
-            bits[i] |= (faced & ~packet->alive) >> i & 1u ? 1u << slot : 0u;
-            if (!(packet->alive >> i & 1)) continue;
-            const ray r = ray_packet_get(packet, i);
-            if (ray_queue_add(&waiting, &r, i << 5 | slot))
-                cast_queue(&waiting, nodes, blocks, bits);
+#if RAY_LANES == 16
+        cast(&rays, points, outside, groups, direction, nodes, blocks);
+#else
+        rays.met[0] = ray_packet_any(nodes, blocks, &rays.packet[0]);
+#endif
+        for (uint i = 0; i < left; i++) {
+            const uint g = i / RAY_LANES, is_lit = rays.faced[g] & ~rays.met[g];
+            bits[i] |= (is_lit >> i % RAY_LANES & 1u) << slot;
         }
     }
-    cast_pair(&pair, nodes, blocks, bits);
-    cast_queue(&waiting, nodes, blocks, bits);
-    for (uint i = 0; i < lanes_here; i++) lit[(size_t)(first + i) * day.stride + word] = bits[i];
+    for (uint i = 0; i < left; i++) {
+        const uint point = order ? order[first + i] : first + i;
+        lit[(size_t)point * day.stride + word] = bits[i];
+    }
 }

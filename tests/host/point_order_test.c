@@ -8,6 +8,9 @@
 
 enum { COUNT = 3 * PIXEL_GROUP };
 
+/* One row of an image. */
+static const point_tile row = {0, COUNT, COUNT};
+
 static facet_record facet[3] = {{.material = 0}, {.material = 1}, {.material = 0}};
 
 static hit_record point(uint32_t of_facet, float x, float z)
@@ -29,7 +32,7 @@ static void every_point_stands_once(void **state)
 
     (void)state;
     fill(hit);
-    assert_int_equal(point_order_fill(order, hit, facet, COUNT), STATUS_OK);
+    assert_int_equal(point_order_fill(order, hit, facet, &row), STATUS_OK);
     for (int i = 0; i < COUNT; i++) seen[order[i]]++;
     for (int i = 0; i < COUNT; i++) assert_int_equal(seen[i], 1);
 }
@@ -41,9 +44,14 @@ static void those_that_face_alike_come_first_in_whole_groups(void **state)
 
     (void)state;
     fill(hit);
-    assert_int_equal(point_order_fill(order, hit, facet, COUNT), STATUS_OK);
+    assert_int_equal(point_order_fill(order, hit, facet, &row), STATUS_OK);
     for (uint32_t i = 0; i < PIXEL_GROUP; i++) assert_int_equal(order[i], 2 * i + 1);
-    for (int i = PIXEL_GROUP + 1; i < COUNT; i++) assert_true(order[i] > order[i - 1]);
+    /* The first that is left faces a way of its own, the level ones that are left stand together. */
+    assert_int_equal(order[PIXEL_GROUP], 0);
+    for (uint32_t i = 0; i < 8; i++)
+        assert_int_equal(order[PIXEL_GROUP + 1 + i], 2 * PIXEL_GROUP + 1 + 2 * i);
+    for (uint32_t i = PIXEL_GROUP + 9; i < COUNT; i++)
+        assert_int_equal(order[i], 2 * (i - PIXEL_GROUP - 8));
 }
 
 static void materials_and_misses_are_kept_apart(void **state)
@@ -55,7 +63,7 @@ static void materials_and_misses_are_kept_apart(void **state)
     for (int i = 0; i < COUNT; i++)
         hit[i] =
             i % 3 == 2 ? (hit_record){.facet = RECORD_NONE} : point((uint32_t)i % 3, 0.0f, 1.0f);
-    assert_int_equal(point_order_fill(order, hit, facet, COUNT), STATUS_OK);
+    assert_int_equal(point_order_fill(order, hit, facet, &row), STATUS_OK);
     for (uint32_t i = 0; i < COUNT; i++) assert_int_equal(order[i] % 3, i / PIXEL_GROUP);
 }
 
@@ -67,8 +75,29 @@ static void the_sign_of_a_zero_does_not_count(void **state)
     (void)state;
     for (uint32_t i = 0; i < COUNT; i++)
         hit[i] = i < PIXEL_GROUP ? point(1, 1.0f, 0.0f) : point(0, i % 2 ? 0.0f : -0.0f, 1.0f);
-    assert_int_equal(point_order_fill(order, hit, facet, COUNT), STATUS_OK);
+    assert_int_equal(point_order_fill(order, hit, facet, &row), STATUS_OK);
     for (uint32_t i = 0; i < COUNT; i++) assert_int_equal(order[i], i);
+}
+
+/* Where all are alike, squares of 8 x 8 follow each other, and within them groups' squares of 4 x 4; the
+ * tile begins and ends within a row. */
+static void neighbours_in_the_image_stand_together(void **state)
+{
+    enum { COLUMNS = 20, FIRST = 3, SIZE = 16 * COLUMNS - 8 };
+    static hit_record hit[SIZE];
+    static uint32_t order[SIZE], seen[SIZE];
+    const point_tile tile = {FIRST, SIZE, COLUMNS};
+
+    (void)state;
+    for (int i = 0; i < SIZE; i++) hit[i] = point(0, 0.0f, 1.0f);
+    assert_int_equal(point_order_fill(order, hit, facet, &tile), STATUS_OK);
+    for (int i = 0; i < SIZE; i++) seen[order[i]]++;
+    for (int i = 0; i < SIZE; i++) assert_int_equal(seen[i], 1);
+    for (int i = 0; i < 61; i++) {
+        const uint32_t pixel = FIRST + order[i], across = pixel % COLUMNS, down = pixel / COLUMNS;
+        assert_true(across < 8 && down < 8);
+        if (i < 13) assert_true(across < 4 && down < 4);
+    }
 }
 
 int main(void)
@@ -78,6 +107,7 @@ int main(void)
         cmocka_unit_test(those_that_face_alike_come_first_in_whole_groups),
         cmocka_unit_test(materials_and_misses_are_kept_apart),
         cmocka_unit_test(the_sign_of_a_zero_does_not_count),
+        cmocka_unit_test(neighbours_in_the_image_stand_together),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

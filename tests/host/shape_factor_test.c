@@ -62,13 +62,13 @@ static double moment(float (*cell)[4], uint32_t count, int component, int power)
     return sum;
 }
 
-static void a_third_of_the_cells_stays(void **state)
+static void a_sixth_of_the_cells_stays(void **state)
 {
     grids g = open_both(30.0);
 
     (void)state;
     assert_int_equal(g.count, 72);
-    assert_int_equal(g.thinned_count, 24);
+    assert_int_equal(g.thinned_count, 12);
     free_both(g);
 }
 
@@ -78,12 +78,12 @@ static void thinned_cells_weigh_the_hemisphere_evenly(void **state)
     grids g = open_both(30.0);
 
     (void)state;
-    assert_near(moment(g.thinned, 24, 3, 0), 1.0, 1e-6);
+    assert_near(moment(g.thinned, 12, 3, 0), 1.0, 1e-6);
     for (int k = 0; k < 2; k++) {
-        assert_near(moment(g.thinned, 24, k, 1), 0.0, 1e-6);
-        assert_near(moment(g.thinned, 24, k, 2), moment(g.cell, 72, k, 2), 1e-6);
+        assert_near(moment(g.thinned, 12, k, 1), 0.0, 1e-6);
+        assert_near(moment(g.thinned, 12, k, 2), moment(g.cell, 72, k, 2), 1e-6);
     }
-    assert_near(moment(g.thinned, 24, 2, 1), moment(g.cell, 72, 2, 1), 1e-6);
+    assert_near(moment(g.thinned, 12, 2, 1), moment(g.cell, 72, 2, 1), 1e-6);
     free_both(g);
 }
 
@@ -115,7 +115,7 @@ static void rings_of_few_cells_stay_whole(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_third_of_the_cells_stays),
+        cmocka_unit_test(a_sixth_of_the_cells_stays),
         cmocka_unit_test(thinned_cells_weigh_the_hemisphere_evenly),
         cmocka_unit_test(half_of_the_weights_are_upslope),
         cmocka_unit_test(rings_of_few_cells_stay_whole),

@@ -50,6 +50,10 @@ class RayWorld:
         """The launch of kernels that sort their rays, kernels/ray_order.h."""
         return (-(-count // (1024 if self.lanes == 16 else 1)), 1)
 
+    def bundle(self):
+        """Points of a work-item of hemisphere.cl and sun_history.cl."""
+        return 64 if self.lanes == 16 else 1
+
     def trace(self, rays, **how):
         """rays: (n, 6). Returns range, facet."""
         rays = np.asarray(rays, np.float32)
@@ -99,7 +103,7 @@ class RayWorld:
         """The words of hemisphere.cl, shape (cell_count, count)."""
         met = np.empty((cell_count, count), np.uint32)
         memory = cl.Buffer(self.opencl.context, cl.mem_flags.WRITE_ONLY, met.nbytes)
-        width = -(-count // self.lanes)
+        width = -(-count // self.bundle())
         size = (-(-width // local) * local, -(-cell_count // (72 if self.lanes == 16 else 1)))
         kernel = self.opencl.build("hemisphere", f"-DRAY_LANES={self.lanes} {options}")
         kernel(self.opencl.queue, size, (local, 1), np.uint32(count), np.uint32(cell_count),

@@ -208,14 +208,16 @@ def test_factors_do_not_depend_on_how_points_are_grouped(opencl, local):
     assert whole.tobytes() == np.concatenate(parts).tobytes()
 
 
-@pytest.mark.parametrize("facing", ["one way", "all ways"])
-def test_words_of_packets_are_those_of_single_rays(opencl, facing):
+@pytest.mark.parametrize("ways", [1, 8, 200])
+@pytest.mark.parametrize("spread_m, triangles", [(1.0, 300), (0.05, 300), (1.0, 5000)])
+def test_words_of_packets_and_beams_are_those_of_single_rays(opencl, ways, spread_m, triangles):
+    """A beam of points far apart meets more leaves among 5000 triangles than it lists."""
     random = np.random.default_rng(4)
-    normal = random.normal(size=(1 if facing == "one way" else 200, 3))
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    hits = points(random.uniform(-1, 1, (200, 3)), normal)
+    normal = random.normal(size=(ways, 3))
+    normal = np.repeat(normal / np.linalg.norm(normal, axis=1, keepdims=True), 200 // ways, axis=0)
+    hits = points(random.uniform(-spread_m, spread_m, (200, 3)), normal)
     hits["facet"][::7] = NONE
-    world = RayWorld(opencl, cases.triangle_soup(300, seed=2))
+    world = RayWorld(opencl, cases.triangle_soup(triangles, seed=2))
     world.world["ground_facet"] = world.facet_count
     cells = grid(10, 20, READINGS["cosine"])  # 162 cells: three work-items of a packet
     words = []
@@ -224,5 +226,5 @@ def test_words_of_packets_are_those_of_single_rays(opencl, facing):
                                 (0.6, 0, 0.8)))
 
     lit = (words[1] != NONE) & (words[1] >> 31 == 1)
-    assert 0.05 < lit.mean() < 0.5
+    assert lit.any()
     assert np.array_equal(words[0], words[1])

@@ -38,14 +38,15 @@ def tower(opencl):
     return RayWorld(opencl, cases.join(cases.plane(50.0), cases.box((-.5, -.5, 0), (.5, .5, 10))))
 
 
-def trace(opencl, world, sun, hits, normal=UP, two_sided=0):
+def trace(opencl, world, sun, hits, normal=UP, two_sided=0, order=None):
     """Shape (points, slots); all points are of one facet record, the ground's among them."""
     facets = np.zeros(world.facet_count + 1, records.FACET)
     facets["normal"], facets["two_sided"] = normal, two_sided
     arguments = [np.uint32(len(hits)), a_day()[0], world.world[0], world.nodes, world.blocks,
-                 *(world.copy(a) for a in (facets, sun, hits))]
+                 *(world.copy(a) for a in (facets, sun, hits)),
+                 None if order is None else world.copy(order)]
     kernel = opencl.build("sun_history", f"-DRAY_LANES={world.lanes}")
-    words = probe.launch(opencl, kernel, (-(-len(hits) // world.lanes), WORDS), arguments,
+    words = probe.launch(opencl, kernel, (-(-len(hits) // world.bundle()), WORDS), arguments,
                          (len(hits), WORDS), np.uint32)
     return (words[:, :, None] >> np.arange(32) & 1).reshape(len(hits), -1)
 
@@ -80,14 +81,30 @@ def test_every_step_is_what_the_sun_of_that_step_alone_tells(opencl):
         assert (lit[:, slot] == world.sunlight(sun[slot, :3], hits)).all()
 
 
-def test_packets_and_single_rays_tell_the_same(opencl):
-    packets, single = tower(opencl), tower(opencl)
-    single.lanes = 1
+@pytest.mark.parametrize("spread_m", [15.0, 1.0])
+@pytest.mark.parametrize("two_sided", [0, 1])
+def test_beams_and_single_rays_tell_the_same(opencl, spread_m, two_sided):
+    """Above a heap of triangles, of which a beam of far points meets more than it lists."""
     random = np.random.default_rng(4)
-    hits = points(np.c_[random.uniform(-15, 15, (203, 2)), np.zeros(203)], UP)
+    place = np.c_[random.uniform(4, 4 + spread_m, (203, 2)), random.uniform(-1, 1, 203)]
+    hits = points(place, (0.6, 0, 0.8))
+    hits["facet"][::9] = NONE
+    world = RayWorld(opencl, cases.triangle_soup(3000, seed=3))
+    lit = []
+    for world.lanes in (16, 1):
+        lit.append(trace(opencl, world, suns(20.0), hits, (0.6, 0, 0.8), two_sided))
 
-    assert (trace(opencl, packets, suns(40.0), hits)
-            == trace(opencl, single, suns(40.0), hits)).all()
+    assert 0.1 < lit[1].mean() < 0.9
+    assert (lit[0] == lit[1]).all()
+
+
+def test_the_order_of_points_changes_no_bit(opencl):
+    random = np.random.default_rng(6)
+    hits = points(np.c_[random.uniform(-15, 15, (203, 2)), np.zeros(203)], UP)
+    order = random.permutation(203).astype(np.uint32)
+
+    assert (trace(opencl, tower(opencl), suns(40.0), hits, order=order)
+            == trace(opencl, tower(opencl), suns(40.0), hits)).all()
 
 
 def test_no_sun_shines_at_night_or_on_a_missed_pixel(opencl):
