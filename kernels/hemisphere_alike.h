@@ -10,8 +10,6 @@
 
 /* Groups of points that face one way. */
 typedef struct hemisphere_alike {
-    const hemisphere_points *points;
-    uint count;
     ray_beam_box box[HEMISPHERE_GROUPS], all; /* where their rays begin */
 } hemisphere_alike;
 
@@ -28,7 +26,7 @@ static uint hemisphere_facing_as(const hemisphere_points *points, const uint lan
 /* The groups, of which one or more have points. */
 static hemisphere_alike hemisphere_bundle(const hemisphere_points *points, const uint count)
 {
-    hemisphere_alike out = {.points = points, .count = count};
+    hemisphere_alike out;
     uint some = 0;
 
     for (uint g = 0; g < count; g++) {
@@ -55,25 +53,44 @@ static ray_packet hemisphere_packet(const hemisphere_points *points, const world
     return p;
 }
 
-/* Casts the rays of a group into a cell.
- *   list   of the groups' beam, NULL: too many leaves; first_word: of the cell */
-static void hemisphere_cast_group(ray_queue *shadows, const hemisphere_scene *scene,
-                                  const hemisphere_alike *alike, const uint group,
-                                  const ray_beam_list *list, const float direction[3],
-                                  const uint first_word)
+/* The rays of groups into a cell. */
+typedef struct hemisphere_beam {
+    float direction[3];
+    uint down; /* 1: what they miss is the ground */
+    ray_beam beam;
+    ray_beam_list list;
+    uint listed; /* 0: too many leaves */
+} hemisphere_beam;
+
+static void hemisphere_set_beam(hemisphere_beam *out, const hemisphere_scene *scene,
+                                const hemisphere_alike *alike, const hemisphere_frame *frame,
+                                global const float *cell)
 {
-    const hemisphere_points *points = &alike->points[group];
-    const ray_beam beam = ray_beam_of(&alike->box[group], direction);
+    float in_frame[4];
+
+    vstore4(vload4(0, cell), 0, in_frame);
+    hemisphere_direction(frame, in_frame, out->direction);
+    out->down = scene->world.ground_facet != RECORD_NONE && -out->direction[2] > RAY_LEVEL;
+    out->beam = ray_beam_of(&alike->all, out->direction);
+    out->listed = ray_beam_collect(&out->beam, scene->nodes, &out->list);
+}
+
+/* Casts the rays of a group.
+ *   first_word   of the cell */
+static void hemisphere_cast_group(ray_queue *shadows, const hemisphere_scene *scene,
+                                  const hemisphere_points *points, const ray_beam_box *box,
+                                  const hemisphere_beam *wide, const uint first_word)
+{
+    const ray_beam beam = ray_beam_from(wide->beam, box);
     ulong leaf[RAY_BEAM_LEAVES];
-    const uint count = list ? ray_beam_sort(&beam, list, leaf) : 0;
-    const uint down = scene->world.ground_facet != RECORD_NONE && -direction[2] > RAY_LEVEL;
+    const uint count = wide->listed ? ray_beam_sort(&beam, &wide->list, leaf) : 0;
     uint word[RAY_LANES];
     ray_packet_hit met;
 
-    if (list && count == 0 && !down) return;
-    const ray_packet packet = hemisphere_packet(points, &scene->world, direction);
-    if (list)
-        ray_beam_closest(list, leaf, count, scene->nodes, scene->blocks, &packet, &met);
+    if (wide->listed && count == 0 && !wide->down) return;
+    const ray_packet packet = hemisphere_packet(points, &scene->world, wide->direction);
+    if (wide->listed)
+        ray_beam_closest(&wide->list, leaf, count, scene->nodes, scene->blocks, &packet, &met);
     else
         ray_packet_closest(scene->nodes, scene->blocks, &packet, &met);
     for (uint i = 0; i < RAY_LANES; i++) word[i] = first_word + points->place + i;
@@ -87,17 +104,14 @@ static void hemisphere_cast_alike(ray_queue *shadows, const hemisphere_scene *sc
 {
     const hemisphere_alike alike = hemisphere_bundle(points, count);
     const hemisphere_frame frame = hemisphere_frame_of(normal);
+    hemisphere_beam wide;
 
     for (uint c = 0; c < cells; c++) {
-        ray_beam_list list;
-        float in_frame[4], direction[3];
-        vstore4(vload4(c, cell), 0, in_frame);
-        hemisphere_direction(&frame, in_frame, direction);
-        const ray_beam beam = ray_beam_of(&alike.all, direction);
-        const uint listed = ray_beam_collect(&beam, scene->nodes, &list);
+        hemisphere_set_beam(&wide, scene, &alike, &frame, cell + 4 * c);
+        if (wide.listed && wide.list.count == 0 && !wide.down) continue;
         for (uint g = 0; g < count; g++)
             if (points[g].alive)
-                hemisphere_cast_group(shadows, scene, &alike, g, listed ? &list : 0, direction,
+                hemisphere_cast_group(shadows, scene, &points[g], &alike.box[g], &wide,
                                       c * scene->stride);
     }
 }

@@ -53,36 +53,31 @@ static void hemisphere_look_for_sun(ray_queue *shadows, const hemisphere_scene *
     }
     const hit_lanes at = hit_lanes_of(scene->blocks, origin, direction, met);
     const lanes facing = (at.normal[0] * sun[0] + at.normal[1] * sun[1]) + at.normal[2] * sun[2];
+    for (int k = 0; k < 3; k++) origin[k] = at.point[k] + scene->world.offset_m * at.normal[k];
     for (uint lit = lanes_bits_of(facing > 0.0f) & have; lit; lit &= lit - 1) {
         const uint i = 31 - clz(lit & -lit);
-        float point[3], normal[3];
-        for (int k = 0; k < 3; k++) {
-            point[k] = ((const float *)&at.point[k])[i];
-            normal[k] = ((const float *)&at.normal[k])[i];
-        }
-        const ray r = ray_leaving(&scene->world, point, normal, sun);
+        ray r = {.direction = {sun[0], sun[1], sun[2]}};
+        for (int k = 0; k < 3; k++) r.origin[k] = ((const float *)&origin[k])[i];
         if (ray_queue_add(shadows, &r, word[i])) hemisphere_cast_shadows(shadows, scene);
     }
 }
 
-/* Writes the words of rays of a packet that met something.
+/* Writes the words of rays of a packet that met something: a facet, or the ground where it goes down.
  *   word   of each lane in out_met */
 static void hemisphere_write(ray_queue *shadows, const hemisphere_scene *scene,
                              const ray_packet *packet, const ray_packet_hit *met, const uint *word)
 {
-    const world_record *world = &scene->world;
-    const uint day = scene->sun[2] > 0;
-    uint have = 0;
+    const uint ground = scene->world.ground_facet, day = scene->sun[2] > 0;
+    const lanes_mask is_missed = *(const lanes_bits *)met->facet == RECORD_NONE;
+    const uint have = packet->alive & ~lanes_bits_of(is_missed);
+    uint down = packet->alive & lanes_bits_of(is_missed & (lanes_read(packet->direction[2]) < -RAY_LEVEL));
 
-    for (uint i = 0; i < RAY_LANES; i++) {
-        if (!(packet->alive >> i & 1)) continue;
-        const uint is_ground = met->facet[i] == RECORD_NONE && world->ground_facet != RECORD_NONE &&
-                               -packet->direction[2][i] > RAY_LEVEL;
-        if (met->facet[i] == RECORD_NONE && !is_ground) continue;
-        scene->out_met[word[i]] =
-            is_ground ? world->ground_facet | (day ? HEMISPHERE_LIT : 0) : met->facet[i];
-        have |= (uint)!is_ground << i;
+    for (uint left = have; left; left &= left - 1) {
+        const uint i = 31 - clz(left & -left);
+        scene->out_met[word[i]] = met->facet[i];
     }
+    for (; down && ground != RECORD_NONE; down &= down - 1)
+        scene->out_met[word[31 - clz(down & -down)]] = ground | (day ? HEMISPHERE_LIT : 0);
     if (day && have) hemisphere_look_for_sun(shadows, scene, packet, met, have, word);
 }
 

@@ -69,6 +69,18 @@ static inline ray_beam_box ray_beam_join(const ray_beam_box *a, const ray_beam_b
     return box;
 }
 
+/* A beam of the same direction from another box. */
+static inline ray_beam ray_beam_from(ray_beam b, const ray_beam_box *box)
+{
+    UNROLL
+    for (int k = 0; k < 3; k++) {
+        const uint negative = b.reciprocal[k] < 0.0f;
+        b.near[k] = -(negative ? box->low[k] : box->high[k]) * b.reciprocal[k];
+        b.far[k] = -(negative ? box->high[k] : box->low[k]) * b.reciprocal[k];
+    }
+    return b;
+}
+
 static inline ray_beam ray_beam_of(const ray_beam_box *box, const float direction[3])
 {
     ray_beam b;
@@ -76,15 +88,11 @@ static inline ray_beam ray_beam_of(const ray_beam_box *box, const float directio
     UNROLL
     for (int k = 0; k < 3; k++) {
         const float d = direction[k];
-        const float reciprocal = 1.0f / (fabs(d) < 1e-18f ? copysign(1e-18f, d) : d);
-        const uint negative = reciprocal < 0.0f;
-        b.reciprocal[k] = reciprocal;
-        b.near[k] = -(negative ? box->low[k] : box->high[k]) * reciprocal;
-        b.far[k] = -(negative ? box->high[k] : box->low[k]) * reciprocal;
-        b.near_plane[k] = 8 * k + 24 * negative;
-        b.far_plane[k] = 8 * k + 24 * !negative;
+        b.reciprocal[k] = 1.0f / (fabs(d) < 1e-18f ? copysign(1e-18f, d) : d);
+        b.near_plane[k] = 8 * k + 24 * (b.reciprocal[k] < 0.0f);
+        b.far_plane[k] = 8 * k + 24 * !(b.reciprocal[k] < 0.0f);
     }
-    return b;
+    return ray_beam_from(b, box);
 }
 
 /* Finds which of eight boxes a ray of the beam may enter: a bit each, and where. */

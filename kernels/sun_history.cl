@@ -109,9 +109,10 @@ static void cast(sun_rays *rays, const lit_points *points, const ray_beam_box *o
     if (some == 0) return;
     const ray_beam beam = ray_beam_of(&all, sun);
     const uint listed = ray_beam_collect(&beam, nodes, &list);
+    if (listed && list.count == 0) return;
     for (uint g = 0; g < groups; g++) {
         if (rays->packet[g].alive == 0) continue;
-        const ray_beam own = ray_beam_of(&box[g], sun);
+        const ray_beam own = ray_beam_from(beam, &box[g]);
         rays->met[g] = listed ? ray_beam_any(&own, &list, nodes, blocks, &rays->packet[g])
                               : ray_packet_any(nodes, blocks, &rays->packet[g]);
     }
