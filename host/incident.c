@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* Pixels of a work-item of incident.cl, its LANES_WIDTH. */
+/* Pixels of a group of incident.cl, its LANES_WIDTH. */
 enum { PIXELS_AT_ONCE = 16 };
 
 struct incident {
@@ -164,8 +164,11 @@ status incident_run(const incident *in, const incident_pixels *p, device_memory 
     status rc = STATUS_OK;
     const incident_record how = how_of(in, p);
     const device_memory cell = shape_factor_cells(in->grid);
-    const uint32_t groups = (p->frame.pixel_count + PIXELS_AT_ONCE - 1) / PIXELS_AT_ONCE;
-    const device_shape shape = {{groups, 1}, 4};
+    const uint32_t count = p->frame.pixel_count;
+    const bool is_alone = device_describe(ray_scene_device(in->scene))->ray_lanes == 1;
+    const device_shape alone = {{(count + PIXELS_AT_ONCE - 1) / PIXELS_AT_ONCE, 1}, 4};
+    const device_shape shape =
+        is_alone ? alone : device_bundle_shape(ray_scene_device(in->scene), count, 1);
 
     TRY(device_run(
         ray_scene_device(in->scene), "incident", shape, ARG(p->frame), ARG(p->camera), ARG(how),

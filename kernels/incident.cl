@@ -2,6 +2,9 @@
 #include "incident_faces.h"
 #include "sky_columns.h"
 
+/* Groups of a work-item, which often have one column of the sky. */
+#define GROUPS (RAY_LANES == 16 ? RAY_BUNDLE / LANES_WIDTH : 1u)
+
 /* Adds what a facet sends to every sample of a pixel. */
 static void add_facet(const incident_facet *seen, around from, radiometry_record frame,
                       global const float *spectra, global const float *emissivity,
@@ -22,14 +25,16 @@ static void add_facet(const incident_facet *seen, around from, radiometry_record
 }
 
 /* Writes what arrives from sky, facets and ground at the lanes that reflect diffusely.
- *   out   of pixel 0 */
-static void write_diffuse(const incident_group *g, const incident_tables *t, global float *out)
+ *   column   of the sky, the last one of the group before
+ *   out      of pixel 0 */
+INLINE void write_diffuse(sky_column *column, const incident_group *g, const incident_tables *t,
+                          global float *out)
 {
     const incident_record how = t->from.how;
 
     for (uint first = 0; first < how.cell_count; first += ROUND) {
         const incident_part part = {first, min(first + ROUND, how.cell_count)};
-        if (!how.keeps_sky) sky_add(g, t, part, out);
+        if (!how.keeps_sky) sky_add(column, g, t, part, out);
         if (how.is_of_facets)
             incident_add_facets(g, t, part, out + t->frame.sample_count);
         else
@@ -84,7 +89,7 @@ static void add_gloss(around from, radiometry_record frame, camera_record camera
  * hemisphere brings the facet that it met (its own temperature, emissivity at the ray's angle, sun
  * and what it sees itself) or the sky of its direction, and so does each ray of a specular share. Exact
  * counterpart of the background in eq. 2.4-1 and 2.4-2.
- * Launch: (frame.pixel_count / LANES_WIDTH, rounded up).
+ * Launch: (frame.pixel_count / RAY_BUNDLE where RAY_LANES is 16, else / LANES_WIDTH, rounded up).
  * cell: (how.cell_count, 4), met: (how.cell_count, pixel_count), see hemisphere.cl
  * dome: (DOME_ROWS, how.dome_count)
  * facets, temperature_k, facet_background: per facet, the ground's behind the real ones
@@ -104,21 +109,25 @@ kernel void incident(const radiometry_record frame, const camera_record camera,
                      global const uint *met, global const uint *gloss_words,
                      global const float *spectra, global const float *emissivity, global float *out)
 {
-    const uint first = get_global_id(0) * LANES_WIDTH;
-    if (first >= frame.pixel_count) return;
+    const uint begin = get_global_id(0) * GROUPS * LANES_WIDTH;
+    const uint end = min(begin + GROUPS * LANES_WIDTH, frame.pixel_count);
     const around from = {facets, materials, temperature_k, facet_background, light, how};
     const incident_cells cells = {how.cell_count, how.ring_count, cell, met};
     const incident_tables t = {frame, from, cells, dome, spectra, emissivity};
-    const incident_group g = incident_take_group(first, &t, hit, order);
+    sky_column column;
 
-    clear_others(&g, &t, out);
-    if (g.diffuse) write_diffuse(&g, &t, out);
-    for (uint i = 0; i < g.lane_count; i++) {
-        if (g.specular[i] == 0.0f) continue;
-        const uint pixel = g.point[i];
-        const hit_record at = hit[first + i];
-        const background_record mirrored = background[pixel];
-        add_gloss(from, frame, camera, pixel, &at, &mirrored, background_lit[pixel], gloss_words,
-                  spectra, emissivity, incident_rows_of(&g, i, &t, out));
+    column.part.end = 0u;
+    for (uint first = begin; first < end; first += LANES_WIDTH) {
+        const incident_group g = incident_take_group(first, &t, hit, order);
+        clear_others(&g, &t, out);
+        if (g.diffuse) write_diffuse(&column, &g, &t, out);
+        for (uint i = 0; i < g.lane_count; i++) {
+            if (g.specular[i] == 0.0f) continue;
+            const uint pixel = g.point[i];
+            const hit_record at = hit[first + i];
+            const background_record mirrored = background[pixel];
+            add_gloss(from, frame, camera, pixel, &at, &mirrored, background_lit[pixel],
+                      gloss_words, spectra, emissivity, incident_rows_of(&g, i, &t, out));
+        }
     }
 }

@@ -212,9 +212,12 @@ static inline void sky_pack(sky_weights *w, uint stride, uint ring_count)
     }
 }
 
-/* Lanes with equal normals and lobes. */
+/* Lanes with equal normals and lobes. Cells and weights are those of a part of the hemisphere above any
+ * surface of that normal. */
 typedef struct sky_column {
     uint lanes; /* a bit each */
+    float normal[3];
+    incident_part part; /* end 0: of none yet */
     sky_cells cells;
     sky_weights weights;
 } sky_column;
@@ -348,21 +351,39 @@ static inline void sky_mark_odd(sky_column *column, const sky_odd_cells *odd)
     }
 }
 
+/* Turns a column to some lanes of a group: it stays as it is where they have its normal. */
+static inline void sky_turn(sky_column *column, uint lanes, const sky_odd_cells *odd,
+                            const incident_group *g, const incident_tables *t)
+{
+    const uint lane = incident_first_of(lanes);
+    uint differs = column->part.first != odd->part.first || column->part.end != odd->part.end;
+
+    column->lanes = lanes;
+    for (uint k = 0; k < 3u; k++) {
+        const float normal = lane_of(&g->view.axes.normal[k], lane);
+        differs |= column->normal[k] != normal;
+        column->normal[k] = normal;
+    }
+    if (differs) {
+        column->part = odd->part;
+        sky_find_cells(&column->cells, g, lane, t, odd->part);
+        sky_weigh(column, odd, g, t);
+    }
+    sky_mark_odd(column, odd);
+}
+
 /* Adds the sky that the lanes see.
- *   out   of pixel 0 */
-static inline void sky_add(const incident_group *g, const incident_tables *t, incident_part part,
-                           global float *out)
+ *   column   the last one of the group before
+ *   out      of pixel 0 */
+static inline void sky_add(sky_column *column, const incident_group *g, const incident_tables *t,
+                           incident_part part, global float *out)
 {
     sky_odd_cells odd;
-    sky_column column;
 
     sky_find_odd(&odd, g, t, part);
     for (uint k = 0; k < g->column_count; k++) {
-        column.lanes = g->column[k];
-        sky_find_cells(&column.cells, g, incident_first_of(column.lanes), t, part);
-        sky_mark_odd(&column, &odd);
-        sky_weigh(&column, &odd, g, t);
-        sky_add_column(&column, &odd, g, t, out);
+        sky_turn(column, g->column[k], &odd, g, t);
+        sky_add_column(column, &odd, g, t, out);
     }
 }
 
