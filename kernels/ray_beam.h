@@ -202,7 +202,7 @@ static inline void ray_beam_closest(const ray_beam_list *list, const ulong *leaf
 {
     const int16 alive = ray_lanes_of_mask(p->alive);
     ray_leaf_nearest best = {MAXFLOAT, RECORD_NONE, 0};
-    ray_packet_walk w = ray_packet_start(p);
+    ray_packet_walk w = ray_packet_start(p, 0);
     float limit = MAXFLOAT;
 
     best.range = alive ? (float16)MAXFLOAT : (float16)-1.0f;
@@ -239,7 +239,7 @@ static inline uint ray_beam_any(const ray_beam *b, const ray_beam_list *list,
             const uint at = first + ray_lanes_next(&mask), child = list->child[at];
             global const bvh_node *node = nodes + list->node[at];
             float16 from;
-            if (!started) w = ray_packet_start(p);
+            if (!started) w = ray_packet_start(p, 0);
             started = 1;
             const uint active =
                 p->alive & ~met &

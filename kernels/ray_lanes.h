@@ -130,9 +130,11 @@ static inline void ray_lanes_set_bounds(ray_lanes *f, const float16 o[3])
     }
 }
 
-/* Makes 16 rays ready; `alive`: a bit per lane in use, at least one. */
+/* Makes 16 rays ready.
+ *   alive     a bit per lane in use, at least one
+ *   bounded   0: the bounds are not needed */
 static inline ray_lanes ray_lanes_of(const float origin[3][16], const float direction[3][16],
-                                     const uint alive, const uint cull_back)
+                                     const uint alive, const uint cull_back, const uint bounded)
 {
     const uint first = 31 - clz(alive & -alive);
     const int16 in_use = ray_lanes_of_mask(alive);
@@ -160,7 +162,7 @@ static inline ray_lanes ray_lanes_of(const float origin[3][16], const float dire
         f.far_plane[k] = 8 * k + 24 * !is_negative;
         f.coherent &= negative == 0 || negative == 0xffff;
     }
-    if (f.coherent) ray_lanes_set_bounds(&f, o);
+    if (bounded && f.coherent) ray_lanes_set_bounds(&f, o);
     return f;
 }
 

@@ -106,11 +106,12 @@ typedef struct ray_packet_walk {
     uint together;
 } ray_packet_walk;
 
-static inline ray_packet_walk ray_packet_start(const ray_packet *p)
+/* Makes a packet ready; bounded: see ray_lanes_of. */
+INLINE ray_packet_walk ray_packet_start(const ray_packet *p, const uint bounded)
 {
     ray_packet_walk w;
 
-    w.lanes = ray_lanes_of(p->origin, p->direction, p->alive, p->cull_back);
+    w.lanes = ray_lanes_of(p->origin, p->direction, p->alive, p->cull_back, bounded);
     w.packet = p;
     w.framed = 0;
     w.together = w.lanes.coherent && !p->loose;
@@ -200,7 +201,7 @@ static inline void ray_packet_closest(global const bvh_node *nodes, global const
     uint word = 0, depth = 0;
 
     if (p->alive == 0) return;
-    w = ray_packet_start(p);
+    w = ray_packet_start(p, 1);
     best.range = active ? (float16)MAXFLOAT : (float16)-1.0f;
     for (;;) {
         const uint rays = mask_of_16(active);
@@ -307,7 +308,7 @@ static inline uint ray_packet_any(global const bvh_node *nodes, global const bvh
     ray_packet_walk w;
 
     if (p->alive == 0) return 0;
-    w = ray_packet_start(p);
+    w = ray_packet_start(p, 1);
     return ray_packet_any_of(&w, nodes, blocks);
 }
 

@@ -103,8 +103,8 @@ static inline uint ray_pair_any(global const bvh_node *nodes, global const bvh_b
 
     if (p[0].alive == 0 || p[1].alive == 0)
         return ray_packet_any(nodes, blocks, &p[0]) | ray_packet_any(nodes, blocks, &p[1]) << 16;
-    w.of[0] = ray_packet_start(&p[0]);
-    w.of[1] = ray_packet_start(&p[1]);
+    w.of[0] = ray_packet_start(&p[0], 1);
+    w.of[1] = ray_packet_start(&p[1], 1);
     if (!(w.of[0].together && w.of[1].together && w.of[0].lanes.octant == w.of[1].lanes.octant))
         return ray_packet_any_of(&w.of[0], nodes, blocks) |
                ray_packet_any_of(&w.of[1], nodes, blocks) << 16;
