@@ -66,6 +66,7 @@ typedef struct sun_rays {
     ray_packet packet[GROUPS];
     uint faced[GROUPS]; /* a bit per lane where the sun shines on a side that it heats */
     uint met[GROUPS];   /* a bit per lane that something shades */
+    uint wait;          /* suns before a beam is tried again */
 } sun_rays;
 
 #if RAY_LANES == 16
@@ -91,6 +92,9 @@ static ray_beam_box box_of(const lit_points *points, const ray_packet *packet,
     return ray_beam_box_of(origin, packet->alive);
 }
 
+/* Suns without a beam after one that entered too much, as the next ones are likely to do. */
+#define WAIT 3
+
 /* Casts the rays as a beam: it lists what they may meet, unless that is too much. */
 static void cast(sun_rays *rays, const lit_points *points, const ray_beam_box *outside,
                  const uint groups, const float sun[3], global const bvh_node *nodes,
@@ -108,7 +112,8 @@ static void cast(sun_rays *rays, const lit_points *points, const ray_beam_box *o
     }
     if (some == 0) return;
     const ray_beam beam = ray_beam_of(&all, sun);
-    const uint listed = ray_beam_collect(&beam, nodes, &list);
+    const uint listed = rays->wait == 0 && ray_beam_collect(&beam, nodes, &list);
+    rays->wait = listed ? 0 : rays->wait ? rays->wait - 1 : WAIT;
     if (listed && list.count == 0) return;
     for (uint g = 0; g < groups; g++) {
         if (rays->packet[g].alive == 0) continue;
@@ -138,7 +143,7 @@ kernel void sun_history(const uint count, const sun_day day, const world_record 
     const uint left = min((uint)(GROUPS * RAY_LANES), count - first);
     uint bits[GROUPS * RAY_LANES] = {0};
     lit_points points[GROUPS];
-    sun_rays rays;
+    sun_rays rays = {.wait = 0};
     uint groups = 0;
 
     for (; groups * RAY_LANES < left; groups++)
