@@ -149,6 +149,7 @@ static inline void pixel_set_target(pixel_state *state, radiometry_record frame,
     pixel_set_lobes(state, frame, hit, material, ray);
     state->emissivity =
         lookup_emissivity(material, at_normal ? 0.0f : state->view_angle_deg, frame.thesis);
+    if (state->interaction == INTERACTION_DIFFUSE) return;
     pixel_bounce(hit.normal, ray, bounce);
     state->sky = sky_find(frame, bounce[0], bounce[1], bounce[2]);
 }
