@@ -69,6 +69,16 @@ static lanes plane_of(const band_source *from, uint plane, lanes radiance)
            (plane == BAND_TAU2 || from->band->is_mean ? per_um : 1.0f);
 }
 
+/* Writes a plane's pixels past the caches: nobody reads them before many others are written. */
+static void write_past(const lanes values, global lanes *out)
+{
+#if defined(__AVX__) && !defined(RAY_PORTABLE)
+    __builtin_nontemporal_store(values, out);
+#else
+    *out = values;
+#endif
+}
+
 /* Planes of the bands from the spectra of groups of neighbouring pixels, eq. 2.4-3.
  * Launch: (groups of PIXEL_GROUP pixels), from frame.first_group on.
  * bands: band_record; weights: of each its samples', um
@@ -102,11 +112,11 @@ kernel void band_planes(const radiometry_record frame, global const band_record 
         from.emissivity = band_emissivity + b;
         from.ln_radiance = ln_radiance + (size_t)b * BAND_TEMPERATURES;
         const lanes radiance = integrate(&from, term_count - 1u);
-        *out = bands[b].is_mean ? radiance / bands[b].width_um : radiance;
+        write_past(bands[b].is_mean ? radiance / bands[b].width_um : radiance, out);
         out += row;
         for (uint k = 1; frame.wants >> k; k++) {
             if (!(frame.wants >> k & 1u)) continue;
-            *out = plane_of(&from, k, radiance);
+            write_past(plane_of(&from, k, radiance), out);
             out += row;
         }
     }

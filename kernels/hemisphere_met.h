@@ -70,7 +70,8 @@ static void hemisphere_write(ray_queue *shadows, const hemisphere_scene *scene,
     const uint ground = scene->world.ground_facet, day = scene->sun[2] > 0;
     const lanes_mask is_missed = *(const lanes_bits *)met->facet == RECORD_NONE;
     const uint have = packet->alive & ~lanes_bits_of(is_missed);
-    uint down = packet->alive & lanes_bits_of(is_missed & (lanes_read(packet->direction[2]) < -RAY_LEVEL));
+    uint down =
+        packet->alive & lanes_bits_of(is_missed & (lanes_read(packet->direction[2]) < -RAY_LEVEL));
 
     for (uint left = have; left; left &= left - 1) {
         const uint i = 31 - clz(left & -left);
