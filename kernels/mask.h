@@ -1,5 +1,5 @@
-/* Mask: the signs of the lanes of a comparison as bits, the first lane's lowest; on the device
- * alone. */
+/* Mask: the signs of lanes as bits, the first lane's lowest: of a comparison what is true. On the
+ * device alone. */
 #ifndef MASK_H
 #define MASK_H
 
@@ -12,7 +12,7 @@ static inline uint mask_of_8(const int8 lanes)
 #if defined(__AVX__) && !defined(RAY_PORTABLE)
     return (uint)__builtin_ia32_movmskps256(as_float8(lanes));
 #else
-    const int8 bits = lanes & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+    const int8 bits = lanes >> 31 & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
     const int4 fours = bits.lo | bits.hi;
     const int2 twos = fours.lo | fours.hi;
     return (uint)(twos.x | twos.y);

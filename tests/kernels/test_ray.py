@@ -303,6 +303,9 @@ def test_portable_masks_give_the_same_bits(opencl):
 
     assert builtin[0].tobytes() == portable[0].tobytes()
     assert np.array_equal(builtin[1], portable[1])
+    blocked = world.occluded(rays)
+    assert np.array_equal(blocked, world.occluded(rays, options="-DRAY_PORTABLE"))
+    assert np.array_equal(blocked != 0, builtin[1] != NONE)
 
 
 def streets():

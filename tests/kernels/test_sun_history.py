@@ -38,14 +38,14 @@ def tower(opencl):
     return RayWorld(opencl, cases.join(cases.plane(50.0), cases.box((-.5, -.5, 0), (.5, .5, 10))))
 
 
-def trace(opencl, world, sun, hits, normal=UP, two_sided=0, order=None):
+def trace(opencl, world, sun, hits, normal=UP, two_sided=0, order=None, options=""):
     """Shape (points, slots); all points are of one facet record, the ground's among them."""
     facets = np.zeros(world.facet_count + 1, records.FACET)
     facets["normal"], facets["two_sided"] = normal, two_sided
     arguments = [np.uint32(len(hits)), a_day()[0], world.world[0], world.nodes, world.blocks,
                  *(world.copy(a) for a in (facets, sun, hits)),
                  None if order is None else world.copy(order)]
-    kernel = opencl.build("sun_history", f"-DRAY_LANES={world.lanes}")
+    kernel = opencl.build("sun_history", f"-DRAY_LANES={world.lanes} {options}")
     words = probe.launch(opencl, kernel, (-(-len(hits) // world.bundle()), WORDS), arguments,
                          (len(hits), WORDS), np.uint32)
     return (words[:, :, None] >> np.arange(32) & 1).reshape(len(hits), -1)
@@ -91,11 +91,12 @@ def test_beams_and_single_rays_tell_the_same(opencl, spread_m, two_sided):
     hits["facet"][::9] = NONE
     world = RayWorld(opencl, cases.triangle_soup(3000, seed=3))
     lit = []
-    for world.lanes in (16, 1):
-        lit.append(trace(opencl, world, suns(20.0), hits, (0.6, 0, 0.8), two_sided))
+    for world.lanes, options in ((16, ""), (16, "-DRAY_PORTABLE"), (1, "")):
+        lit.append(trace(opencl, world, suns(20.0), hits, (0.6, 0, 0.8), two_sided,
+                         options=options))
 
-    assert 0.1 < lit[1].mean() < 0.9
-    assert (lit[0] == lit[1]).all()
+    assert 0.1 < lit[2].mean() < 0.9
+    assert (lit[0] == lit[2]).all() and (lit[1] == lit[2]).all()
 
 
 def test_the_order_of_points_changes_no_bit(opencl):
