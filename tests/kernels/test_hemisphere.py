@@ -225,6 +225,7 @@ def test_words_of_packets_and_beams_are_those_of_single_rays(opencl, ways, sprea
         words.append(world.cast(len(cells), world.copy(cells), len(hits), world.copy(hits),
                                 (0.6, 0, 0.8), options=options))
 
-    assert ((words[2] != NONE) & (words[2] >> 31 == 1)).any()
+    lit = ((words[2] != NONE) & (words[2] >> 31 == 1)).mean()
+    assert 0.05 < lit < 0.5 if (spread_m, triangles) == (1.0, 300) else lit > 0
     assert np.array_equal(words[0], words[2])
     assert np.array_equal(words[1], words[2])

@@ -81,6 +81,16 @@ def test_every_step_is_what_the_sun_of_that_step_alone_tells(opencl):
         assert (lit[:, slot] == world.sunlight(sun[slot, :3], hits)).all()
 
 
+def test_packets_and_single_rays_tell_the_same(opencl):
+    packets, single = tower(opencl), tower(opencl)
+    single.lanes = 1
+    random = np.random.default_rng(4)
+    hits = points(np.c_[random.uniform(-15, 15, (203, 2)), np.zeros(203)], UP)
+
+    assert (trace(opencl, packets, suns(40.0), hits)
+            == trace(opencl, single, suns(40.0), hits)).all()
+
+
 @pytest.mark.parametrize("spread_m", [15.0, 1.0])
 @pytest.mark.parametrize("two_sided", [0, 1])
 def test_beams_and_single_rays_tell_the_same(opencl, spread_m, two_sided):
