@@ -164,11 +164,10 @@ status incident_run(const incident *in, const incident_pixels *p, device_memory 
     status rc = STATUS_OK;
     const incident_record how = how_of(in, p);
     const device_memory cell = shape_factor_cells(in->grid);
-    const uint32_t count = p->frame.pixel_count;
-    const bool is_alone = device_describe(ray_scene_device(in->scene))->ray_lanes == 1;
-    const device_shape alone = {{(count + PIXELS_AT_ONCE - 1) / PIXELS_AT_ONCE, 1}, 4};
-    const device_shape shape =
-        is_alone ? alone : device_bundle_shape(ray_scene_device(in->scene), count, 1);
+    const bool is_bundle = device_describe(ray_scene_device(in->scene))->ray_lanes > 1;
+    const uint32_t at_once = is_bundle ? RAY_BUNDLE : PIXELS_AT_ONCE;
+    const uint32_t groups = (p->frame.pixel_count + at_once - 1) / at_once;
+    const device_shape shape = {{groups, 1}, is_bundle ? 1 : 4};
 
     TRY(device_run(
         ray_scene_device(in->scene), "incident", shape, ARG(p->frame), ARG(p->camera), ARG(how),

@@ -83,11 +83,11 @@ kernel void hemisphere(const uint count, const uint cell_count, const float sun_
                        global const bvh_node *nodes, global const bvh_block *blocks,
                        global const float *cell, global const hit_record *hit, global uint *out_met)
 {
-    const uint first = get_global_id(0) * HEMISPHERE_GROUPS * RAY_LANES;
+    const uint first = get_global_id(0) * RAY_GROUPS * RAY_LANES;
     const uint first_cell = get_global_id(1) * HEMISPHERE_CELLS;
     if (first >= count || first_cell >= cell_count) return;
     const uint cells = min((uint)HEMISPHERE_CELLS, cell_count - first_cell);
-    const uint left = min((uint)(HEMISPHERE_GROUPS * RAY_LANES), count - first);
+    const uint left = min((uint)(RAY_GROUPS * RAY_LANES), count - first);
     const hemisphere_scene scene = {.world = world,
                                     .nodes = nodes,
                                     .blocks = blocks,
@@ -95,7 +95,7 @@ kernel void hemisphere(const uint count, const uint cell_count, const float sun_
                                     .out_met = out_met + (size_t)first_cell * count + first,
                                     .stride = count};
     ray_queue shadows = ray_queue_of(&world);
-    hemisphere_points points[HEMISPHERE_GROUPS];
+    hemisphere_points points[RAY_GROUPS];
     hemisphere_rays rays = {.row_count = 0};
     uint groups = 0;
 

@@ -10,7 +10,7 @@
 
 /* Groups of points that face one way. */
 typedef struct hemisphere_alike {
-    ray_beam_box box[HEMISPHERE_GROUPS], all; /* where their rays begin */
+    ray_beam_box box[RAY_GROUPS], all; /* where their rays begin */
 } hemisphere_alike;
 
 /* The points of a group that face as one of them does: a bit each. */

@@ -7,9 +7,8 @@
 #include "hit_lanes.h"
 #include "ray_queue.h"
 
-/* Cells of a work-item, and groups of RAY_LANES points. */
+/* Cells of a work-item. */
 #define HEMISPHERE_CELLS (RAY_LANES == 16 ? 72 : 1)
-#define HEMISPHERE_GROUPS (RAY_LANES == 16 ? RAY_BUNDLE / 16 : 1)
 
 /* The scene, the sun, and where the words go. */
 typedef struct hemisphere_scene {

@@ -2,9 +2,6 @@
 #include "incident_faces.h"
 #include "sky_columns.h"
 
-/* Groups of a work-item, which often have one column of the sky. */
-#define GROUPS (RAY_LANES == 16 ? RAY_BUNDLE / LANES_WIDTH : 1u)
-
 /* Adds what a facet sends to every sample of a pixel. */
 static void add_facet(const incident_facet *seen, around from, radiometry_record frame,
                       global const float *spectra, global const float *emissivity,
@@ -109,8 +106,8 @@ kernel void incident(const radiometry_record frame, const camera_record camera,
                      global const uint *met, global const uint *gloss_words,
                      global const float *spectra, global const float *emissivity, global float *out)
 {
-    const uint begin = get_global_id(0) * GROUPS * LANES_WIDTH;
-    const uint end = min(begin + GROUPS * LANES_WIDTH, frame.pixel_count);
+    const uint begin = get_global_id(0) * RAY_GROUPS * LANES_WIDTH;
+    const uint end = min(begin + RAY_GROUPS * LANES_WIDTH, frame.pixel_count);
     const around from = {facets, materials, temperature_k, facet_background, light, how};
     const incident_cells cells = {how.cell_count, how.ring_count, cell, met};
     const incident_tables t = {frame, from, cells, dome, spectra, emissivity};

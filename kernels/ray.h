@@ -31,6 +31,9 @@ typedef struct ray_hit {
 /* Boxes are entered up to this many times the nearest range. */
 #define RAY_SLACK (1.0f + 9.5367431640625e-7f)
 
+/* How much wider boxes are for a ray, by the largest coordinate of its origin: 8 roundings. */
+#define RAY_PAD 4.76837158203125e-7f
+
 /* A ray made ready. A plane of a box at p is passed at p * reciprocal + near or far. */
 typedef struct ray_frame {
     triangle_shear shear;
@@ -39,6 +42,12 @@ typedef struct ray_frame {
     uint is_negative[3];
     float back; /* edges are met from 0 up and from back down */
 } ray_frame;
+
+/* The reciprocal of a part of a direction; of 0 a large number. */
+static inline float ray_reciprocal(const float d)
+{
+    return 1.0f / (fabs(d) < 1e-18f ? copysign(1e-18f, d) : d);
+}
 
 static inline ray_frame ray_frame_of(const ray *r)
 {
@@ -54,9 +63,8 @@ static inline ray_frame ray_frame_of(const ray *r)
     for (int k = 0; k < 3; k++) reach = fmax(reach, fabs(r->origin[k]));
     UNROLL
     for (int k = 0; k < 3; k++) {
-        const float d = r->direction[k];
-        const float pad = 4.76837158203125e-7f * reach;
-        f.reciprocal[k] = 1.0f / (fabs(d) < 1e-18f ? copysign(1e-18f, d) : d);
+        const float pad = RAY_PAD * reach;
+        f.reciprocal[k] = ray_reciprocal(r->direction[k]);
         f.near[k] = -r->origin[k] * f.reciprocal[k] - pad * fabs(f.reciprocal[k]);
         f.far[k] = -r->origin[k] * f.reciprocal[k] + pad * fabs(f.reciprocal[k]);
         f.is_negative[k] = f.reciprocal[k] < 0;

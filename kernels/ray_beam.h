@@ -48,7 +48,7 @@ static inline ray_beam_box ray_beam_box_of(const float16 origin[3], const uint a
     vstore8(ray_lanes_lowest(all), 0, lowest);
     UNROLL
     for (int k = 0; k < 6; k++) reach = fmax(reach, -lowest[k]);
-    const float pad = 2.0f * 4.76837158203125e-7f * reach;
+    const float pad = 2.0f * RAY_PAD * reach;
     UNROLL
     for (int k = 0; k < 3; k++) {
         box.low[k] = lowest[k] - pad;
@@ -87,8 +87,7 @@ static inline ray_beam ray_beam_of(const ray_beam_box *box, const float directio
 
     UNROLL
     for (int k = 0; k < 3; k++) {
-        const float d = direction[k];
-        b.reciprocal[k] = 1.0f / (fabs(d) < 1e-18f ? copysign(1e-18f, d) : d);
+        b.reciprocal[k] = ray_reciprocal(direction[k]);
         b.near_plane[k] = 8 * k + 24 * (b.reciprocal[k] < 0.0f);
         b.far_plane[k] = 8 * k + 24 * !(b.reciprocal[k] < 0.0f);
     }
@@ -217,10 +216,7 @@ static inline void ray_beam_closest(const ray_beam_list *list, const ulong *leaf
         ray_packet_closest_leaf(&w, nodes, blocks, node->child[child], active, rays, &best);
         limit = ray_beam_farthest(best.range) * RAY_SLACK;
     }
-    best.range = as_int16(best.facet) == -1 ? (float16)INFINITY : best.range;
-    *(float16 *)out->range = best.range;
-    *(uint16 *)out->facet = best.facet;
-    *(uint16 *)out->triangle = best.triangle;
+    ray_packet_write(&best, out);
 }
 
 /* Tells which lanes of a packet meet anything: a bit each.

@@ -111,7 +111,7 @@ static inline void ray_lanes_set_bounds(ray_lanes *f, const float16 o[3])
     const float8 lowest = ray_lanes_lowest(all), highest = -ray_lanes_lowest(reversed);
     const float8 reach = ray_most(-lowest, highest);
     const float reach_xy = reach.s0 > reach.s1 ? reach.s0 : reach.s1;
-    const float pad = 2.0f * 4.76837158203125e-7f * (reach_xy > reach.s2 ? reach_xy : reach.s2);
+    const float pad = 2.0f * RAY_PAD * (reach_xy > reach.s2 ? reach_xy : reach.s2);
     vstore8(lowest, 0, low);
     vstore8(highest, 0, high);
     UNROLL
@@ -148,7 +148,7 @@ static inline ray_lanes ray_lanes_of(const float origin[3][16], const float dire
         reach = ray_lanes_most(fabs(o[k]), reach);
     }
     ray_lanes_set_shear(&f, o, d, cull_back);
-    const float16 pad = 4.76837158203125e-7f * reach;
+    const float16 pad = RAY_PAD * reach;
     UNROLL
     for (int k = 0; k < 3; k++) {
         const float16 least = copysign((float16)1e-18f, d[k]);

@@ -13,6 +13,9 @@
 #define RAY_LANES 1
 #endif
 
+/* Groups of RAY_LANES points of a work-item that looks at several. */
+#define RAY_GROUPS (RAY_LANES == 16 ? RAY_BUNDLE / 16 : 1)
+
 /* Rays that share a world; a bit in `alive` per lane in use. */
 typedef struct ray_packet {
     float origin[3][RAY_LANES] __attribute__((aligned(64)));
@@ -190,6 +193,14 @@ INLINE uint ray_packet_open(const ray_lanes *f, global const bvh_node *nodes,
     return depth;
 }
 
+/* Writes what the lanes met. */
+static inline void ray_packet_write(const ray_leaf_nearest *best, ray_packet_hit *out)
+{
+    *(float16 *)out->range = as_int16(best->facet) == -1 ? (float16)INFINITY : best->range;
+    *(uint16 *)out->facet = best->facet;
+    *(uint16 *)out->triangle = best->triangle;
+}
+
 /* Finds the nearest triangle of each lane. */
 static inline void ray_packet_closest(global const bvh_node *nodes, global const bvh_block *blocks,
                                       const ray_packet *p, ray_packet_hit *out)
@@ -221,10 +232,7 @@ static inline void ray_packet_closest(global const bvh_node *nodes, global const
         word = stack.word[depth];
     }
 done:
-    best.range = as_int16(best.facet) == -1 ? (float16)INFINITY : best.range;
-    *(float16 *)out->range = best.range;
-    *(uint16 *)out->facet = best.facet;
-    *(uint16 *)out->triangle = best.triangle;
+    ray_packet_write(&best, out);
 }
 
 /* Puts the children that an active lane enters on the stack, the lanes above the word. */

@@ -37,7 +37,8 @@ typedef struct bvh_block {
 } bvh_block;
 RECORD_SIZE(bvh_block, 320);
 
-/* Points that a work-item looks at where rays go in packets: hemisphere.cl, sun_history.cl. */
+/* Points that a work-item looks at where rays go in packets: hemisphere.cl, sun_history.cl,
+ * incident.cl. */
 #define RAY_BUNDLE 64u
 
 /* What a ray met. */

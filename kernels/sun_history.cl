@@ -2,11 +2,7 @@
 
 #define LANES_WIDTH RAY_LANES
 #include "lanes.h"
-#include "ray_pair.h"
 #include "sun_history.h"
-
-/* Groups of RAY_LANES points of a work-item. */
-#define GROUPS (RAY_LANES == 16 ? RAY_BUNDLE / 16 : 1)
 
 /* Neighbouring points, and their facets as the sun sees them. */
 typedef struct lit_points {
@@ -63,10 +59,10 @@ static uint face_sun(const lit_points *from, const float sun[3], ray_packet *out
 
 /* The rays of groups of points towards one sun. */
 typedef struct sun_rays {
-    ray_packet packet[GROUPS];
-    uint faced[GROUPS]; /* a bit per lane where the sun shines on a side that it heats */
-    uint met[GROUPS];   /* a bit per lane that something shades */
-    uint wait;          /* suns before a beam is tried again */
+    ray_packet packet[RAY_GROUPS];
+    uint faced[RAY_GROUPS]; /* a bit per lane where the sun shines on a side that it heats */
+    uint met[RAY_GROUPS];   /* a bit per lane that something shades */
+    uint wait;              /* suns before a beam is tried again */
 } sun_rays;
 
 #if RAY_LANES == 16
@@ -100,7 +96,7 @@ static void cast(sun_rays *rays, const lit_points *points, const ray_beam_box *o
                  const uint groups, const float sun[3], global const bvh_node *nodes,
                  global const bvh_block *blocks)
 {
-    ray_beam_box box[GROUPS], all;
+    ray_beam_box box[RAY_GROUPS], all;
     ray_beam_list list;
     uint some = 0;
 
@@ -138,18 +134,18 @@ kernel void sun_history(const uint count, const sun_day day, const world_record 
                         global const facet_record *facets, global const float *sun,
                         global const hit_record *hit, global const uint *order, global uint *lit)
 {
-    const uint first = get_global_id(0) * GROUPS * RAY_LANES, word = get_global_id(1);
+    const uint first = get_global_id(0) * RAY_GROUPS * RAY_LANES, word = get_global_id(1);
     if (first >= count) return;
-    const uint left = min((uint)(GROUPS * RAY_LANES), count - first);
-    uint bits[GROUPS * RAY_LANES] = {0};
-    lit_points points[GROUPS];
+    const uint left = min((uint)(RAY_GROUPS * RAY_LANES), count - first);
+    uint bits[RAY_GROUPS * RAY_LANES] = {0};
+    lit_points points[RAY_GROUPS];
     sun_rays rays = {.wait = 0};
     uint groups = 0;
 
     for (; groups * RAY_LANES < left; groups++)
         points[groups] = take_points(&world, facets, hit, order, first + groups * RAY_LANES, count);
 #if RAY_LANES == 16
-    ray_beam_box outside[GROUPS];
+    ray_beam_box outside[RAY_GROUPS];
     for (uint g = 0; g < groups; g++)
         if (points[g].met) outside[g] = box_outside(&points[g]);
 #endif
