@@ -2,6 +2,7 @@
 #include "command_scene.h"
 #include "command_value.h"
 #include "errand.h"
+#include "interrupt.h"
 #include "pocl_affinity.h"
 #include "render_output.h"
 
@@ -35,14 +36,6 @@ static const char help[] =
     "                         NAME_probe_COLUMN_ROW.csv and .png, every term of its radiance\n"
     "  --exr                  write NAME.exr above 16 bands too\n"
     "  --device N[,M...]      OpenCL devices, see radsig devices; several share the tiles\n";
-
-static volatile sig_atomic_t stop;
-
-static void on_signal(int signal_number)
-{
-    (void)signal_number;
-    stop = 1;
-}
 
 enum { DEVICE_LIMIT = 16 };
 
@@ -202,8 +195,7 @@ static status run(const arguments *a)
     TRY(errand_run(list, sizeof list / sizeof *list));
     TRY(render_output(o.s, o.dev, a->device_count, &a->output));
 out:
-    /* A signal can also break off what the system was doing. */
-    if (rc != STATUS_OK && stop) rc = status_set(STATUS_INTERRUPTED, "interrupted");
+    rc = interrupt_status(rc);
     for (size_t i = 0; i < a->device_count; i++) device_free(o.dev[i]);
     scene_free(o.s);
     return rc;
@@ -217,13 +209,10 @@ int command_render(int argc, char **argv)
     if (!a) return command_end("render", status_set(STATUS_MEMORY, "no memory"));
     a->device[0] = -1;
     a->device_count = 1;
-    a->output.stop = &stop;
     a->output.shows_progress = isatty(STDERR_FILENO);
     code = take_arguments(a, argc, argv);
     if (code < 0) {
-        const struct sigaction action = {.sa_handler = on_signal};
-        sigaction(SIGINT, &action, NULL);
-        sigaction(SIGTERM, &action, NULL);
+        interrupt_catch_signals();
         code = command_end("render", run(a));
     }
     free(a);

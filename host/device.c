@@ -4,10 +4,12 @@
 #include "../kernels/records.h"
 
 #include "device_error.h"
+#include "interrupt.h"
 #include "kernel_source.h"
 #include "pocl_affinity.h"
 
 #include <CL/cl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +18,9 @@ enum { KERNEL_LIMIT = 40, PACKET = 16 };
 
 /* Times are kept as events until someone waits; then they are added up. */
 enum { PENDING_LIMIT = 1024 };
+
+/* An interrupt waits for about so much work on its way, in portions of long launches. */
+static const double pending_limit_s = 0.1, portion_s = 0.15;
 
 typedef struct device_kernel {
     char name[48];
@@ -38,6 +43,7 @@ struct device {
     size_t kernel_count;
     device_launch_event pending[PENDING_LIMIT];
     size_t pending_count;
+    double pending_s; /* what they are expected to take */
 };
 
 /* A packet a work-item where there are vectors. */
@@ -171,7 +177,7 @@ out:
     return rc;
 }
 
-/* Adds up the times of launches that have ended; waits for all of them. */
+/* Waits for all launches, and adds up their times. */
 static status collect_times(device *dev)
 {
     const cl_int error = clFinish(dev->queue);
@@ -194,8 +200,19 @@ static status collect_times(device *dev)
                             dev->kernels[launch->kernel].name, dev->info.name, device_error(state));
     }
     dev->pending_count = 0;
+    dev->pending_s = 0.0;
     if (rc == STATUS_OK && error != CL_SUCCESS)
         rc = status_set(STATUS_DEVICE, "device %s: %s", dev->info.name, device_error(error));
+    return rc;
+}
+
+static status wait_for_launches(device *dev)
+{
+    status rc = STATUS_OK;
+
+    TRY(collect_times(dev));
+    TRY(interrupt_check());
+out:
     return rc;
 }
 
@@ -278,7 +295,7 @@ status device_download(device *dev, device_memory memory, size_t offset, size_t 
     status rc = STATUS_OK;
     cl_int error;
 
-    TRY(collect_times(dev));
+    TRY(wait_for_launches(dev));
     if (bytes == 0) goto out;
     error =
         clEnqueueReadBuffer(dev->queue, memory, CL_TRUE, offset, bytes, destination, 0, NULL, NULL);
@@ -294,7 +311,7 @@ status device_map(device *dev, device_memory memory, size_t bytes, const void **
     cl_int error;
     void *mapped;
 
-    TRY(collect_times(dev));
+    TRY(wait_for_launches(dev));
     mapped = clEnqueueMapBuffer(dev->queue, memory, CL_TRUE, CL_MAP_READ, 0, bytes, 0, NULL, NULL,
                                 &error);
     NEED(mapped, allocation_status(error), "device %s: mapping %zu bytes: %s", dev->info.name,
@@ -360,6 +377,7 @@ static status find_kernel(device *dev, const char *name, size_t *out)
     if (i == dev->kernel_count) {
         NEED(i < KERNEL_LIMIT, STATUS_DEVICE, "kernel %s: more than %d kernels", name,
              KERNEL_LIMIT);
+        TRY(interrupt_check());
         TRY(build_kernel(dev, name, &dev->kernels[i]));
         dev->times[i].kernel = dev->kernels[i].name;
         dev->kernel_count++;
@@ -395,26 +413,60 @@ out:
     return rc;
 }
 
+/* What a launch is expected to take, going by the others of its kernel; the first one is waited for. */
+static double expected_s(const device_time *so_far)
+{
+    return so_far->launches ? so_far->seconds / so_far->launches : pending_limit_s;
+}
+
+static status enqueue(device *dev, size_t index, size_t first, size_t size,
+                      const device_shape *shape)
+{
+    status rc = STATUS_OK;
+    const double wait_s = expected_s(&dev->times[index]);
+    const size_t offset[2] = {first, 0}, global[2] = {size, shape->size[1]};
+    const size_t local[2] = {shape->local, 1};
+    const bool is_full = dev->pending_count == PENDING_LIMIT;
+    cl_event event;
+    cl_int error;
+
+    if (is_full || dev->pending_s + wait_s > pending_limit_s) TRY(collect_times(dev));
+    TRY(interrupt_check());
+    error = clEnqueueNDRangeKernel(dev->queue, dev->kernels[index].kernel, 2, first ? offset : NULL,
+                                   global, local, 0, NULL, &event);
+    NEED(error == CL_SUCCESS, allocation_status(error), "kernel %s over %zu x %zu on %s: %s",
+         dev->kernels[index].name, shape->size[0], shape->size[1], dev->info.name,
+         device_error(error));
+    dev->pending[dev->pending_count++] = (device_launch_event){event, index};
+    dev->pending_s += wait_s;
+out:
+    return rc;
+}
+
+/* Work-items along x of one portion of a launch over `padded` of them. */
+static size_t portion_of(const device *dev, const device_shape *shape, size_t padded)
+{
+    const double items = portion_s * dev->info.compute_units / shape->item_s;
+    const size_t groups = (size_t)fmin(items / (double)shape->local, (double)padded);
+
+    if (shape->item_s == 0.0 || strcmp(dev->info.type, "cpu")) return padded;
+    return (groups ? groups : 1) * shape->local;
+}
+
 status device_launch(device *dev, const char *name, device_shape shape,
                      const device_argument *arguments, size_t argument_count)
 {
     status rc = STATUS_OK;
-    const size_t local[2] = {shape.local, 1};
-    const size_t global[2] = {(shape.size[0] + shape.local - 1) / shape.local * shape.local,
-                              shape.size[1]};
-    cl_event event;
-    cl_int error;
+    const size_t padded = (shape.size[0] + shape.local - 1) / shape.local * shape.local;
+    const size_t portion = portion_of(dev, &shape, padded);
     size_t index = 0;
 
     if (shape.size[0] == 0 || shape.size[1] == 0) return STATUS_OK;
     TRY(find_kernel(dev, name, &index));
     TRY(set_arguments(dev, &dev->kernels[index], arguments, argument_count));
-    if (dev->pending_count == PENDING_LIMIT) TRY(collect_times(dev));
-    error = clEnqueueNDRangeKernel(dev->queue, dev->kernels[index].kernel, 2, NULL, global, local,
-                                   0, NULL, &event);
-    NEED(error == CL_SUCCESS, allocation_status(error), "kernel %s over %zu x %zu on %s: %s", name,
-         shape.size[0], shape.size[1], dev->info.name, device_error(error));
-    dev->pending[dev->pending_count++] = (device_launch_event){event, index};
+    for (size_t first = 0; first < padded; first += portion)
+        TRY(enqueue(dev, index, first, padded - first < portion ? padded - first : portion,
+                    &shape));
 out:
     return rc;
 }
@@ -424,13 +476,13 @@ device_shape device_ray_shape(const device *dev, size_t rays, size_t y)
     const size_t lanes = dev->info.ray_lanes;
 
     /* A packet's stack is large: a group of few stays in the cache. */
-    return (device_shape){{(rays + lanes - 1) / lanes, y}, lanes == 1 ? 64 : 4};
+    return (device_shape){{(rays + lanes - 1) / lanes, y}, lanes == 1 ? 64 : 4, 0.0};
 }
 
 device_shape device_bundle_shape(const device *dev, size_t points, size_t y)
 {
     if (dev->info.ray_lanes == 1) return device_ray_shape(dev, points, y);
-    return (device_shape){{(points + RAY_BUNDLE - 1) / RAY_BUNDLE, y}, 1};
+    return (device_shape){{(points + RAY_BUNDLE - 1) / RAY_BUNDLE, y}, 1, 0.0};
 }
 
 status device_times(device *dev, const device_time **out, size_t *out_count)

@@ -57,16 +57,18 @@ void device_unmap(device *dev, device_memory memory, const void *mapped); /* NUL
 typedef struct device_shape {
     size_t size[2];
     size_t local; /* work-items of a group, along x */
+    double
+        item_s; /* about what a work-item, with all of its y, takes on one core; 0: a launch is short */
 } device_shape;
 
 static inline device_shape shape1(size_t x)
 {
-    return (device_shape){{x, 1}, 64};
+    return (device_shape){{x, 1}, 64, 0.0};
 }
 
 static inline device_shape shape2(size_t x, size_t y)
 {
-    return (device_shape){{x, y}, 64};
+    return (device_shape){{x, y}, 64, 0.0};
 }
 
 /* Launches whose work-items have ray_lanes rays each: `rays` of them along x. */
@@ -88,8 +90,9 @@ typedef struct device_argument {
 status device_prepare(device *dev, const char *name);
 
 /* Launches kernel `name` over a shape; x is padded to the local size, so the kernel returns where
- * its index is past the end. A failure names kernel, shape and error; the build log is in the
- * message.
+ * its index is past the end. A CPU takes long launches in portions along x. Waits where others would be
+ * much work, so that an interrupt, with which launches and waits fail, ends within a fraction of a second.
+ * A failure names kernel, shape and error; the build log is in the message.
  *   device_run(dev, "planck", shape1(n), ARG(n), ARG(temperature_k), ARG(radiance)) */
 #define device_run(dev, name, shape, ...)                                                          \
     device_launch(dev, name, shape, (device_argument[]){__VA_ARGS__},                              \

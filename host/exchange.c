@@ -8,10 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WORK_ROWS = 9, LANES = 16, PASSES = 8 };
+enum { WORK_ROWS = 9, PASSES = 8 };
 
 #define LEAST_SHARE 0.005f /* of a view, that facets take */
 #define SETTLED_W_M2 2.0f
+
+/* What a step of a column takes on one core in the kernels, s. */
+#define SENT_S 1e-7
+#define RECEIVED_S 3e-7
 
 /* What stays the same over the passes. */
 typedef struct exchange {
@@ -72,34 +76,68 @@ out:
     return rc;
 }
 
-/* Launches the kernel over the patches; the heat along facets stays with the model. */
+/* What the kernel works with. */
+typedef struct conducting {
+    device_memory first, links, lit, groups, rows, progress;
+    conduction_progress *at; /* shape (patch_count) */
+} conducting;
+
+static void conducting_free(conducting *c)
+{
+    device_release(c->progress);
+    device_release(c->rows);
+    device_release(c->groups);
+    device_release(c->lit);
+    device_release(c->links);
+    device_release(c->first);
+    free(c->at);
+}
+
+static status conducting_open(conducting *c, const exchange *x, const conduction_map *map)
+{
+    status rc = STATUS_OK;
+    device *dev = x->model->dev;
+    const size_t n = map->count, patches = map->patch_count;
+
+    c->at = calloc(patches, sizeof *c->at);
+    NEED(c->at, STATUS_MEMORY, "no memory for %zu patches", patches);
+    TRY(device_allocate(dev, &c->first, (patches + 1) * sizeof *map->patch_first,
+                        map->patch_first));
+    TRY(device_allocate(dev, &c->links, n * sizeof *map->link, map->link));
+    TRY(upload_lit(x, map->facet, n, &c->lit));
+    TRY(device_allocate(dev, &c->groups, n * sizeof(conduction_group), NULL));
+    TRY(device_allocate(dev, &c->rows, n * sizeof(float) * WORK_ROWS, NULL));
+    TRY(device_allocate(dev, &c->progress, patches * sizeof *c->at, c->at));
+out:
+    return rc;
+}
+
+/* Launches the kernel over the patches until all are done; the heat along facets stays with the model. */
 static status conduct_map(const exchange *x, const conduction_map *map, device_memory facets)
 {
     status rc = STATUS_OK;
     thermal *t = x->model;
-    const size_t n = map->count, row = n * sizeof(float);
-    const thermal_span span = span_of(x, n);
-    const device_shape shape = {{map->patch_count, 1}, 1};
-    device_memory first = NULL, links = NULL, lit = NULL, groups = NULL, rows = NULL;
+    const thermal_span span = span_of(x, map->count);
+    const device_shape shape = {.size = {map->patch_count, 1}, .local = 1};
+    conducting c = {0};
+    bool is_done = false;
 
-    TRY(device_allocate(t->dev, &first, (map->patch_count + 1) * sizeof *map->patch_first,
-                        map->patch_first));
-    TRY(device_allocate(t->dev, &links, n * sizeof *map->link, map->link));
-    TRY(upload_lit(x, map->facet, n, &lit));
-    TRY(device_allocate(t->dev, &groups, n * sizeof(conduction_group), NULL));
-    TRY(device_allocate(t->dev, &rows, row * WORK_ROWS, NULL));
-    TRY(device_allocate(t->dev, &t->lateral_w_m2, row * 2 * t->step_count, NULL));
-    TRY(device_run(t->dev, "conduction", shape, ARG(span), ARG(map->patch_count), ARG(first),
-                   ARG(facets), ARG(links), ARG(t->forcing), ARG(lit), ARG(t->power_materials),
-                   ARG(t->power), ARG(t->received_columns), ARG(t->received_w_m2), ARG(groups),
-                   ARG(rows), ARG(t->lateral_w_m2)));
-    t->lateral_columns = (uint32_t)n;
+    TRY(conducting_open(&c, x, map));
+    TRY(device_allocate(t->dev, &t->lateral_w_m2, map->count * sizeof(float) * 2 * t->step_count,
+                        NULL));
+    while (!is_done) {
+        TRY(device_run(t->dev, "conduction", shape, ARG(span), ARG(map->patch_count), ARG(c.first),
+                       ARG(facets), ARG(c.links), ARG(t->forcing), ARG(c.lit),
+                       ARG(t->power_materials), ARG(t->power), ARG(t->received_columns),
+                       ARG(t->received_w_m2), ARG(c.groups), ARG(c.rows), ARG(c.progress),
+                       ARG(t->lateral_w_m2)));
+        TRY(device_download(t->dev, c.progress, 0, map->patch_count * sizeof *c.at, c.at));
+        is_done = true;
+        for (uint32_t i = 0; i < map->patch_count; i++) is_done &= c.at[i].is_done;
+    }
+    t->lateral_columns = (uint32_t)map->count;
 out:
-    device_release(rows);
-    device_release(groups);
-    device_release(lit);
-    device_release(links);
-    device_release(first);
+    conducting_free(&c);
     return rc;
 }
 
@@ -174,6 +212,12 @@ out:
     return rc;
 }
 
+/* Launches that go through all steps of a facet or a column. */
+static device_shape shape_of(const exchange *x, size_t count, double step_s)
+{
+    return (device_shape){{count, 1}, 64, step_s * (double)x->model->step_count};
+}
+
 /* Takes all facets through the weather with what they received so far, then lets them send anew.
  *   is_first   nothing was received yet */
 static status pass(exchange *x, bool is_first)
@@ -181,23 +225,24 @@ static status pass(exchange *x, bool is_first)
     status rc = STATUS_OK;
     thermal *t = x->model;
     const thermal_span span = span_of(x, x->facet_count);
-    const device_shape shape = {{(x->facet_count + LANES - 1) / LANES, 1}, 4};
     const uint32_t received = is_first ? 0 : t->received_columns, n = span.facet_count;
     const uint32_t steps = span.step_count;
+    device_shape each_step = shape_of(x, t->received_columns, RECEIVED_S);
     device_memory facets = NULL;
 
+    each_step.size[1] = t->step_count;
     TRY(upload_layered(t, x->facet, x->facet_count, &facets));
-    TRY(device_run(t->dev, "layered", shape, ARG(span), ARG(facets), ARG(t->forcing), ARG(x->lit),
-                   ARG(t->power_materials), ARG(t->power), ARG(t->lateral_columns),
+    TRY(device_run(t->dev, "layered", thermal_shape(t, n), ARG(span), ARG(facets), ARG(t->forcing),
+                   ARG(x->lit), ARG(t->power_materials), ARG(t->power), ARG(t->lateral_columns),
                    ARG(t->lateral_w_m2), ARG(received), ARG(t->received_w_m2), ARG(x->sent_w_m2)));
-    TRY(device_run(t->dev, "radiosity", shape1(n), ARG(n), ARG(steps), ARG(facets), ARG(t->forcing),
-                   ARG(received), ARG(t->received_w_m2), ARG(x->sent_w_m2)));
+    TRY(device_run(t->dev, "radiosity", shape_of(x, n, SENT_S), ARG(n), ARG(steps), ARG(facets),
+                   ARG(t->forcing), ARG(received), ARG(t->received_w_m2), ARG(x->sent_w_m2)));
     const device_memory old = t->received_w_m2;
     t->received_w_m2 = x->before_w_m2;
     x->before_w_m2 = old;
-    TRY(device_run(t->dev, "irradiation", shape2(t->received_columns, t->step_count),
-                   ARG(t->received_columns), ARG(n), ARG(x->view), ARG(x->seen), ARG(x->share),
-                   ARG(t->forcing), ARG(x->sent_w_m2), ARG(t->received_w_m2)));
+    TRY(device_run(t->dev, "irradiation", each_step, ARG(t->received_columns), ARG(n), ARG(x->view),
+                   ARG(x->seen), ARG(x->share), ARG(t->forcing), ARG(x->sent_w_m2),
+                   ARG(t->received_w_m2)));
 out:
     device_release(facets);
     return rc;
@@ -214,7 +259,7 @@ static status find_change(const exchange *x, bool *out_changes)
 
     NEED(w_m2, STATUS_MEMORY, "no memory for %u facets", columns);
     TRY(device_allocate(t->dev, &most, columns * sizeof *w_m2, NULL));
-    TRY(device_run(t->dev, "largest_change", shape1(columns), ARG(columns), ARG(steps),
+    TRY(device_run(t->dev, "largest_change", shape_of(x, columns, SENT_S), ARG(columns), ARG(steps),
                    ARG(x->before_w_m2), ARG(t->received_w_m2), ARG(most)));
     TRY(device_download(t->dev, most, 0, columns * sizeof *w_m2, w_m2));
     *out_changes = false;

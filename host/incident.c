@@ -167,7 +167,7 @@ status incident_run(const incident *in, const incident_pixels *p, device_memory 
     const bool is_bundle = device_describe(ray_scene_device(in->scene))->ray_lanes > 1;
     const uint32_t at_once = is_bundle ? RAY_BUNDLE : PIXELS_AT_ONCE;
     const uint32_t groups = (p->frame.pixel_count + at_once - 1) / at_once;
-    const device_shape shape = {{groups, 1}, is_bundle ? 1 : 4};
+    const device_shape shape = {{groups, 1}, is_bundle ? 1 : 4, 0.0};
 
     TRY(device_run(
         ray_scene_device(in->scene), "incident", shape, ARG(p->frame), ARG(p->camera), ARG(how),

@@ -245,7 +245,7 @@ static status integrate(const render_tile_memory *t, const render_shared *r,
          frame.first_group += t->groups_at_once) {
         const uint32_t left = groups - frame.first_group;
         const uint32_t some = left < t->groups_at_once ? left : t->groups_at_once;
-        const device_shape shape = {{some, 1}, GROUPS_TOGETHER};
+        const device_shape shape = {{some, 1}, GROUPS_TOGETHER, 0.0};
         TRY(device_run(r->dev, "radiometry", shape, ARG(frame), ARG(r->air), ARG(r->camera),
                        ARG(r->tables.facets), ARG(r->tables.materials), ARG(t->temperature_k),
                        ARG(t->hit), ARG(t->background), ARG(t->lit), ARG(t->background_lit),

@@ -132,6 +132,14 @@ void thermal_fill_layered(const thermal *t, const facet_record *facet, size_t co
     }
 }
 
+device_shape thermal_shape(const thermal *t, size_t facet_count)
+{
+    const double step_of_facet_s = t->layered ? 7e-7 : 5e-8;
+
+    return (device_shape){
+        {(facet_count + LANES - 1) / LANES, 1}, 4, LANES * step_of_facet_s * (double)t->step_count};
+}
+
 /* Puts the facets on the device, as the model's kernel takes them. */
 static status upload_batch(const thermal *t, const batch *b, device_memory *out)
 {
@@ -154,7 +162,7 @@ static status compute(const thermal *t, const batch *b, thermal_span span, float
     status rc = STATUS_OK;
     device_memory facets = NULL, lit = NULL, temperature_k = NULL;
     const size_t bytes = span.row_count * b->count * sizeof(float);
-    const device_shape shape = {{(b->count + LANES - 1) / LANES, 1}, 4};
+    const device_shape shape = thermal_shape(t, b->count);
 
     span.facet_count = (uint)b->count;
     span.sunlit_words = b->word_count;

@@ -21,6 +21,9 @@ struct thermal {
     float *sky_share;            /* shape (received_columns): of the views */
 };
 
+/* The launch of the model's kernel, 16 facets a work-item. */
+device_shape thermal_shape(const thermal *t, size_t facet_count);
+
 /* Fills the ladders of facets; those that state a temperature need none.
  *   out   shape (count) */
 void thermal_fill_layered(const thermal *t, const facet_record *facet, size_t count,
