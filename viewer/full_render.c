@@ -29,9 +29,8 @@ static status run(full_render *full)
     status rc = STATUS_OK;
     scene *s = NULL;
     device *dev = NULL;
-    const render_output_options options = {.scene_path = full->path,
-                                           .folder = full->folder,
-                                           .percent = &full->percent};
+    const render_output_options options = {
+        .scene_path = full->path, .folder = full->folder, .percent = &full->percent};
 
     TRY(scene_read(&s, full->path, (const char *const *)full->setting, full->setting_count));
     if (full->has_camera) {
