@@ -25,9 +25,9 @@ PYTHON = $(firstword $(foreach p,.venv/bin/python /usr/bin/python3 python3,$(if 
 # Expanded lazily: pkg-config may not be installed before `deps` has run.
 SANITIZE = $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
 WARNINGS = -Wall -Wextra -Wshadow
-CPPFLAGS = -Ihost -Ikernels -Imeshio -Iviewer -MMD -MP -DRADSIG_VERSION='"$(VERSION)"'
+CPPFLAGS = -Ihost -Ikernels -Imeshio -Iviewer -I$(GENERATED) -I. -MMD -MP -DRADSIG_VERSION='"$(VERSION)"'
 CFLAGS = -std=c11 -D_DEFAULT_SOURCE -D_POSIX_C_SOURCE=200809L -O2 -g -ffp-contract=off $(WARNINGS) \
-	-Wdouble-promotion $(SANITIZE)
+	-Wdouble-promotion -Werror=incompatible-pointer-types $(SANITIZE)
 CXXFLAGS = -std=c++17 -O2 -g -ffp-contract=off $(WARNINGS) -Wno-maybe-uninitialized $(SANITIZE) \
 	$(shell pkg-config --cflags OpenImageIO tomlplusplus 2>/dev/null)
 LDLIBS = -lOpenCL -lOpenMeshCore $(shell pkg-config --libs OpenImageIO tomlplusplus 2>/dev/null) -lmd -lm
@@ -37,7 +37,8 @@ COMMANDS := host/main.c $(wildcard host/command*.c)
 VIEWER := $(wildcard viewer/*.c)
 MESHIO := $(wildcard meshio/*.cpp)
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
-LIBRARY := $(HOST:%.c=$(BUILD)/%.o) $(MESHIO:%.cpp=$(BUILD)/%.o) $(BUILD)/kernel_files.o
+GENERATED := $(BUILD)/generated
+LIBRARY := $(HOST:%.c=$(BUILD)/%.o) $(MESHIO:%.cpp=$(BUILD)/%.o) $(GENERATED)/kernel_files.o $(GENERATED)/launches.o
 HOST_TESTS := $(patsubst tests/host/%_test.c,$(BUILD)/tests/%,$(sort $(wildcard tests/host/*_test.c)))
 SCENES := $(patsubst scenes/%/make_geometry.py,scenes/%/.geometry,$(wildcard scenes/*/make_geometry.py))
 
@@ -84,7 +85,7 @@ $(BUILD)/radsig: $(COMMANDS:%.c=$(BUILD)/%.o) $(BUILD)/library.a
 $(BUILD)/radsig-view: $(VIEWER:%.c=$(BUILD)/%.o) $(BUILD)/library.a
 	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lOSMesa -lglfw -lpthread
 
-$(BUILD)/%.o: %.c | build/deps
+$(BUILD)/%.o: %.c | build/deps $(GENERATED)/launches.h
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
@@ -92,11 +93,19 @@ $(BUILD)/%.o: %.cpp | build/deps
 	@mkdir -p $(@D)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -c -o $@ $<
 
-$(BUILD)/kernel_files.o: $(BUILD)/kernel_files.c
+$(GENERATED)/%.o: $(GENERATED)/%.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
+# How the host launches each kernel; written only where it changed, so that a kernel's body rebuilds nothing else.
+$(GENERATED)/launches.h $(GENERATED)/launches.c: $(GENERATED)/launches.stamp ;
+
+$(GENERATED)/launches.stamp: $(KERNELS) kernels/launches.py | build/deps
+	@mkdir -p $(@D)
+	python3 kernels/launches.py $(@D)
+	@touch $@
+
 # The text of every kernel file as a C string.
-$(BUILD)/kernel_files.c: $(KERNELS) Makefile | build/deps
+$(GENERATED)/kernel_files.c: $(KERNELS) Makefile | build/deps
 	@mkdir -p $(@D)
 	@{ echo '#include "kernel_source.h"'; echo 'const kernel_file kernel_files[] = {'; \
 	for f in $(notdir $(KERNELS)); do echo "{\"$$f\","; \
