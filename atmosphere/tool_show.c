@@ -1,5 +1,6 @@
 #include "database_header.h"
 #include "database_plot.h"
+#include "picture.h"
 #include "tool.h"
 
 #include <math.h>
@@ -93,6 +94,7 @@ static status run(const char *path, const char *plot)
     status rc = STATUS_OK;
     atmosphere *a = NULL;
 
+    if (plot) TRY(picture_prepare());
     TRY(atmosphere_read(&a, path));
     print_header(a->header);
     print_grids(a);

@@ -2,6 +2,7 @@
 #include "command_scene.h"
 #include "command_value.h"
 #include "errand.h"
+#include "picture.h"
 #include "pocl_affinity.h"
 #include "render_output.h"
 
@@ -164,7 +165,7 @@ typedef struct opening {
     const arguments *a;
     scene *s;
     device *dev[DEVICE_LIMIT];
-    atomic_bool is_vain; /* the scene has failed */
+    atomic_bool is_vain; /* the scene, or what writes pictures, has failed */
 } opening;
 
 static status read_scene(void *self)
@@ -174,6 +175,17 @@ static status read_scene(void *self)
 
     TRY(command_scene_read(&o->s, o->a->output.scene_path, &o->a->settings));
     if (o->a->bands) TRY(scene_keep_bands(o->s, o->a->bands));
+out:
+    if (rc != STATUS_OK) o->is_vain = true;
+    return rc;
+}
+
+static status prepare_pictures(void *self)
+{
+    status rc = STATUS_OK;
+    opening *o = self;
+
+    TRY(picture_prepare());
 out:
     if (rc != STATUS_OK) o->is_vain = true;
     return rc;
@@ -196,7 +208,7 @@ static status run(const arguments *a)
 {
     status rc = STATUS_OK;
     opening o = {.a = a};
-    const errand list[] = {{read_scene, &o}, {open_devices, &o}};
+    const errand list[] = {{read_scene, &o}, {prepare_pictures, &o}, {open_devices, &o}};
 
     pocl_affinity_set(); /* the environment is another thread's later */
     TRY(errand_run(list, sizeof list / sizeof *list));

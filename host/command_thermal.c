@@ -3,6 +3,7 @@
 #include "command_value.h"
 #include "constants.h"
 #include "curve.h"
+#include "picture.h"
 #include "thermal.h"
 #include "weather_history.h"
 #include "weather_place.h"
@@ -284,6 +285,7 @@ static status run(const thermal_request *request)
     const thermal_matter matter = {&record, request->is_layered ? &layered : NULL, NULL, 1,
                                    request->laws};
 
+    if (request->plot) TRY(picture_prepare());
     TRY(material_library_read(&library, request->materials));
     const material *named = material_by_name(library, request->material);
     NEED(named, STATUS_ARGUMENT, "%s: has no material '%s'", request->materials, request->material);

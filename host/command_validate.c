@@ -3,6 +3,7 @@
 #include "constants.h"
 #include "curve.h"
 #include "output_file.h"
+#include "picture.h"
 #include "thermal.h"
 #include "weather_table.h"
 
@@ -305,6 +306,7 @@ static status run(const validation *v)
     weather_table t = {0};
     float *predicted_k = NULL;
 
+    if (v->plot) TRY(picture_prepare());
     TRY(weather_table_read(&t, v->table));
     TRY(set_measured(&t, v));
     predicted_k = malloc(t.history->count * sizeof *predicted_k);

@@ -13,6 +13,16 @@ struct picture {
     lettering_page page;
 };
 
+status picture_prepare(void)
+{
+    status rc = STATUS_OK;
+    char message[MESSAGE_SIZE] = "";
+
+    NEED(image_file_prepare(message, sizeof message) == 0, STATUS_FILE, "%s", message);
+out:
+    return rc;
+}
+
 status picture_create(picture **out, uint32_t width, uint32_t height)
 {
     status rc = STATUS_OK;

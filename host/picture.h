@@ -8,6 +8,10 @@
 
 typedef struct picture picture;
 
+/* Loads what draws and writes pictures (image_file_prepare): first of all where a picture is the result.
+ * Fails with STATUS_FILE if it cannot be loaded. */
+status picture_prepare(void);
+
 /* White all over. */
 status picture_create(picture **out, uint32_t width, uint32_t height);
 

@@ -1,6 +1,7 @@
 /* Images written as OpenEXR (named float planes) and PNG (8 bit), and planes of an OpenEXR read
  * back. The same input gives the same bytes. The function says the format, not the extension of the
- * path, so that a caller can write under a temporary name. */
+ * path, so that a caller can write under a temporary name. OpenImageIO, which does the work, is part
+ * of a plug-in (plugin.h); where that cannot be loaded all functions fail. */
 #ifndef MESHIO_IMAGE_FILE_H
 #define MESHIO_IMAGE_FILE_H
 
@@ -26,6 +27,10 @@ typedef struct image_channel {
 } image_channel;
 
 typedef enum image_compression { IMAGE_NONE, IMAGE_ZIP } image_compression;
+
+/* Loads the plug-in, which takes a while: called beside other work, or before work whose result would
+ * otherwise be lost. Returns 0, or non-zero with `path: ...`. */
+int image_file_prepare(char *message, size_t message_size);
 
 /* Writes the channels, float32 and exact, under their names (each once).
  * Returns 0, or non-zero with `path: ...`: cannot be created, disk full, no channels, a name given

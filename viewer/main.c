@@ -2,7 +2,9 @@
 #include "bench.h"
 #include "clock.h"
 #include "control.h"
+#include "errand.h"
 #include "offscreen.h"
+#include "picture.h"
 #include "saving.h"
 #include "script.h"
 #include "window.h"
@@ -141,24 +143,43 @@ out:
     return rc;
 }
 
+typedef struct opening {
+    const char *scene_path;
+    shared_scene *of;
+} opening;
+
+static status read_scene(void *self)
+{
+    opening *o = self;
+
+    return shared_scene_read(&o->of, o->scene_path, NULL, 0);
+}
+
+static status prepare_pictures(void *self)
+{
+    (void)self;
+    return picture_prepare();
+}
+
 static status run(const arguments *a, double start_s)
 {
     status rc = STATUS_OK;
-    shared_scene *of = NULL;
+    opening o = {.scene_path = a->scene_path};
+    const errand list[] = {{read_scene, &o}, {prepare_pictures, NULL}};
     surface *s = NULL;
     preview *p = NULL;
     int width, height;
 
-    TRY(shared_scene_read(&of, a->scene_path, NULL, 0));
+    TRY(errand_run(list, sizeof list / sizeof *list));
     print_lines("warning: ", status_warnings());
-    const int columns = a->columns ? a->columns : of->s->camera.columns;
-    const int rows = a->columns ? a->rows : of->s->camera.rows;
+    const int columns = a->columns ? a->columns : o.of->s->camera.columns;
+    const int rows = a->columns ? a->rows : o.of->s->camera.rows;
     preview_page_size(columns, rows, 1.0, &width, &height);
     if (a->offscreen)
         TRY(offscreen_open(&s, width, height));
     else
         TRY(window_open(&s, width, height));
-    TRY(preview_open(&p, s, of, columns, rows, a->plane, stdout));
+    TRY(preview_open(&p, s, o.of, columns, rows, a->plane, stdout));
     if (a->script)
         TRY(script_run(p, a->script));
     else if (a->is_bench)
@@ -169,7 +190,7 @@ static status run(const arguments *a, double start_s)
 out:
     preview_free(p);
     if (s) s->free(s);
-    shared_scene_drop(of);
+    shared_scene_drop(o.of);
     return rc;
 }
 
