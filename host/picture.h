@@ -25,7 +25,7 @@ status picture_text(picture *pic, uint32_t x, uint32_t y, const char *text, int 
 status picture_text_width(uint32_t *out_width, const char *text, int size);
 
 /* Writes under the temporary path of `place`, which stays to be committed. */
-status picture_write(const picture *pic, const output_file *place);
+status picture_write(const picture *pic, output_file *place);
 
 void picture_free(picture *pic);
 

@@ -19,25 +19,25 @@ extern "C" int image_file_prepare(char *message, std::size_t message_size)
     return load(message, message_size) ? 0 : 1;
 }
 
-extern "C" int image_file_write_exr(const char *path, const image_frame *frame,
+extern "C" int image_file_write_exr(FILE *file, const char *path, const image_frame *frame,
                                     const image_channel *channel, std::size_t channel_count,
                                     image_compression compression, char *message,
                                     std::size_t message_size)
 {
     const image_plugin *image = load(message, message_size);
 
-    return image ? image->write_exr(path, frame, channel, channel_count, compression, message,
+    return image ? image->write_exr(file, path, frame, channel, channel_count, compression, message,
                                     message_size)
                  : 1;
 }
 
-extern "C" int image_file_write_png(const char *path, const image_frame *frame,
+extern "C" int image_file_write_png(FILE *file, const char *path, const image_frame *frame,
                                     const std::uint8_t *rgb, char *message,
                                     std::size_t message_size)
 {
     const image_plugin *image = load(message, message_size);
 
-    return image ? image->write_png(path, frame, rgb, message, message_size) : 1;
+    return image ? image->write_png(file, path, frame, rgb, message, message_size) : 1;
 }
 
 extern "C" int image_file_read_channel(float **out, std::uint32_t *out_width,
