@@ -15,7 +15,7 @@ PREVIEW := $(PROGRAM)-view
 PACKAGES := build-essential pkg-config python3 python3-numpy python3-pyopencl python3-pytest \
 	python3-spectral pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libopenmesh-dev \
 	libtinyobjloader-dev libopenimageio-dev libtomlplusplus-dev libcmocka-dev libmd-dev fonts-dejavu-core \
-	libosmesa6-dev libglfw3-dev libgl-dev libgl1-mesa-dri xvfb xauth xdotool
+	libxxhash-dev uthash-dev libosmesa6-dev libglfw3-dev libgl-dev libgl1-mesa-dri xvfb xauth xdotool
 LINT_PACKAGES := clang-format clang cppcheck python3-venv
 
 # A plain python3 on the path may lack Debian's packages.
@@ -25,7 +25,8 @@ PYTHON = $(firstword $(foreach p,.venv/bin/python /usr/bin/python3 python3,$(if 
 # Expanded lazily: pkg-config may not be installed before `deps` has run.
 SANITIZE = $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
 WARNINGS = -Wall -Wextra -Wshadow
-CPPFLAGS = -Ihost -Ikernels -Imeshio -Iviewer -I$(GENERATED) -I. -MMD -MP -DRADSIG_VERSION='"$(VERSION)"'
+CPPFLAGS = -DXXH_INLINE_ALL -Ihost -Ikernels -Imeshio -Iviewer -MMD -MP -DRADSIG_VERSION='"$(VERSION)"'
+CPPFLAGS += -I. -I$(GENERATED)
 CFLAGS = -std=c11 -D_DEFAULT_SOURCE -D_POSIX_C_SOURCE=200809L -O2 -g -ffp-contract=off $(WARNINGS) \
 	-Wdouble-promotion -Werror=incompatible-pointer-types $(SANITIZE)
 CXXFLAGS = -std=c++17 -O2 -g -ffp-contract=off $(WARNINGS) -Wno-maybe-uninitialized $(SANITIZE) \
