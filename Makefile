@@ -29,13 +29,20 @@ CPPFLAGS = -Ihost -Ikernels -Imeshio -Iviewer -MMD -MP -DRADSIG_VERSION='"$(VERS
 CFLAGS = -std=c11 -D_DEFAULT_SOURCE -D_POSIX_C_SOURCE=200809L -O2 -g -ffp-contract=off $(WARNINGS) \
 	-Wdouble-promotion $(SANITIZE)
 CXXFLAGS = -std=c++17 -O2 -g -ffp-contract=off $(WARNINGS) -Wno-maybe-uninitialized $(SANITIZE) \
-	$(shell pkg-config --cflags OpenImageIO tomlplusplus 2>/dev/null)
-LDLIBS = -lOpenCL -lOpenMeshCore $(shell pkg-config --libs OpenImageIO tomlplusplus 2>/dev/null) -lmd -lm
+	$(TOML_CFLAGS)
+LDLIBS = -lOpenCL -lOpenMeshCore $(TOML_LIBS) -lmd -lm
+# Each is asked for once, when it is first needed.
+TOML_CFLAGS = $(eval TOML_CFLAGS := $(shell pkg-config --cflags tomlplusplus))$(TOML_CFLAGS)
+TOML_LIBS = $(eval TOML_LIBS := $(shell pkg-config --libs tomlplusplus))$(TOML_LIBS)
+IMAGE_CFLAGS = $(eval IMAGE_CFLAGS := $(shell pkg-config --cflags OpenImageIO))$(IMAGE_CFLAGS)
+IMAGE_LIBS = $(eval IMAGE_LIBS := $(shell pkg-config --libs OpenImageIO))$(IMAGE_LIBS)
 
 HOST := $(filter-out host/main.c host/command%,$(wildcard host/*.c))
 COMMANDS := host/main.c $(wildcard host/command*.c)
 VIEWER := $(wildcard viewer/*.c)
 MESHIO := $(wildcard meshio/*.cpp)
+PLUGINS := $(dir $(PROGRAM))plugins/image.so
+IMAGE := $(patsubst %.cpp,$(BUILD)/%.o,$(wildcard meshio/image/*.cpp) meshio/failure.cpp)
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
 LIBRARY := $(HOST:%.c=$(BUILD)/%.o) $(MESHIO:%.cpp=$(BUILD)/%.o) $(BUILD)/kernel_files.o
 HOST_TESTS := $(patsubst tests/host/%_test.c,$(BUILD)/tests/%,$(sort $(wildcard tests/host/*_test.c)))
@@ -44,7 +51,7 @@ SCENES := $(patsubst scenes/%/make_geometry.py,scenes/%/.geometry,$(wildcard sce
 .DELETE_ON_ERROR:
 .SECONDARY:
 .SECONDEXPANSION:
-.PHONY: help exact-rays deps all atmosphere atmosphere-data scenes demo test lint bench bench-rays renders clean bench-view screenshots
+.PHONY: help exact-rays deps all atmosphere atmosphere-data scenes demo test lint bench bench-start bench-rays renders clean bench-view screenshots
 
 ## help: list the targets
 help:
@@ -84,6 +91,18 @@ $(BUILD)/radsig: $(COMMANDS:%.c=$(BUILD)/%.o) $(BUILD)/library.a
 $(BUILD)/radsig-view: $(VIEWER:%.c=$(BUILD)/%.o) $(BUILD)/library.a
 	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lOSMesa -lglfw -lpthread
 
+# Libraries that few runs need, and that take long to load, are linked to plug-ins (meshio/plugin.h).
+$(PROGRAM) $(PREVIEW): | $(PLUGINS)
+
+build/plugins/%.so: build/release/plugins/%.so
+	@mkdir -p $(@D)
+	ln -f $< $@
+
+$(IMAGE): CXXFLAGS += -fPIC -fvisibility=hidden $(IMAGE_CFLAGS)
+$(BUILD)/plugins/image.so: $(IMAGE)
+	@mkdir -p $(@D)
+	$(CXX) $(SANITIZE) -shared -o $@ $^ $(IMAGE_LIBS)
+
 $(BUILD)/%.o: %.c | build/deps
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
@@ -118,7 +137,7 @@ ATMOSPHERE_AT_HAND = $(if $(SAN),,$(if $(shell command -v gfortran),$(if $(wildc
 ## atmosphere: build radsig-atmosphere (needs gfortran, and pip with network the first time)
 atmosphere: build/radsig-atmosphere
 
-build/radsig-atmosphere: build/release/radsig-atmosphere build/radsig-lowtran
+build/radsig-atmosphere: build/release/radsig-atmosphere build/radsig-lowtran | $(PLUGINS)
 	ln -f $< $@
 
 build/radsig-lowtran: build/release/radsig-lowtran
@@ -205,8 +224,11 @@ RUN_SANITIZED = $(if $(SAN),ASAN_OPTIONS=use_sigaltstack=0 \
 	LSAN_OPTIONS=print_suppressions=0:suppressions=$(CURDIR)/tests/sanitizer.supp,) \
 	RADSIG_SHARED=$${RADSIG_SHARED:-../shared}
 
-$(BUILD)/tests/%: $(BUILD)/tests/host/%_test.o $(BUILD)/library.a
+$(BUILD)/tests/plugins: | $(BUILD)/plugins/image.so
 	@mkdir -p $(@D)
+	ln -sfn ../plugins $@
+
+$(BUILD)/tests/%: $(BUILD)/tests/host/%_test.o $(BUILD)/library.a | $(BUILD)/tests/plugins
 	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lcmocka
 
 ## lint: format, kernel syntax, include arrows, cppcheck, ruff
@@ -217,6 +239,10 @@ lint: deps
 ## bench: time the demo's stages and the whole process
 bench: deps all
 	$(PYTHON) bench/render.py
+
+## bench-start: time how long commands take to start that write no picture
+bench-start: deps all
+	$(PYTHON) bench/start.py
 
 # Embree is for this bench alone.
 BENCH_RAYS := $(patsubst %.c,$(BUILD)/%.o,$(wildcard bench/rays/*.c))
@@ -288,5 +314,5 @@ clean:
 	rm -rf build out $(SCENES) scenes/library/.emissivity
 	rm -f scenes/*/*.gdb scenes/*/*.obj scenes/library/*.ems
 
--include $(patsubst %.o,%.d,$(LIBRARY) $(COMMANDS:%.c=$(BUILD)/%.o) $(VIEWER:%.c=$(BUILD)/%.o)) $(wildcard $(BUILD)/tests/host/*.d) \
+-include $(patsubst %.o,%.d,$(LIBRARY) $(IMAGE) $(COMMANDS:%.c=$(BUILD)/%.o) $(VIEWER:%.c=$(BUILD)/%.o)) $(wildcard $(BUILD)/tests/host/*.d) \
 	$(wildcard $(BUILD)/atmosphere/*.d $(BUILD)/bench/*/*.d)

@@ -3,8 +3,8 @@
 #include "lowtran.h"
 
 #include "lowtran_process.h"
+#include "staging_folder.h"
 
-#include <errno.h>
 #include <sched.h>
 #include <signal.h>
 #include <stdio.h>
@@ -23,7 +23,7 @@ typedef struct job {
 } job;
 
 typedef struct crew {
-    char folder[1024];
+    staging_folder *folder;
     int count, busy;
     lowtran_process *process[WORKER_LIMIT];
     size_t deck[WORKER_LIMIT]; /* that the process runs */
@@ -50,15 +50,9 @@ static status crew_open(crew *c, size_t decks)
     const char *folder = getenv("TMPDIR");
     const int processors = processor_count();
 
-    snprintf(c->folder, sizeof c->folder, "%s/radsig-atmosphere.XXXXXX",
-             folder && *folder ? folder : "/tmp");
-    if (!mkdtemp(c->folder)) {
-        rc = status_set(STATUS_FILE, "%s: %s", c->folder, strerror(errno));
-        c->folder[0] = '\0';
-        goto out;
-    }
+    TRY(staging_folder_open(&c->folder, folder && *folder ? folder : "/tmp"));
     while (c->count < processors && (size_t)c->count < decks) {
-        TRY(lowtran_process_open(&c->process[c->count], c->folder, c->count));
+        TRY(lowtran_process_open(&c->process[c->count], staging_folder_path(c->folder), c->count));
         c->count++;
     }
 out:
@@ -68,7 +62,7 @@ out:
 static void crew_free(crew *c)
 {
     for (int i = 0; i < c->count; i++) lowtran_process_free(c->process[i]);
-    if (*c->folder) rmdir(c->folder);
+    staging_folder_free(c->folder);
 }
 
 /* Waits for a child; returns its worker, or -1 after a failure. */

@@ -78,19 +78,6 @@ out:
     return rc;
 }
 
-static void remove_folder(const char *folder)
-{
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        char *path = join(folder, files[i]);
-        if (path) unlink(path);
-        free(path);
-    }
-    char *inner = join(folder, "out");
-    if (inner) rmdir(inner);
-    free(inner);
-    rmdir(folder);
-}
-
 void lowtran_process_free(lowtran_process *p)
 {
     if (!p) return;
@@ -98,7 +85,6 @@ void lowtran_process_free(lowtran_process *p)
         kill(p->child, SIGKILL);
         waitpid(p->child, NULL, 0);
     }
-    if (p->folder) remove_folder(p->folder);
     free(p->folder);
     free(p);
 }

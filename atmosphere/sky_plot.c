@@ -181,7 +181,7 @@ status sky_plot_write(const char *path, const char *title, const atmosphere *a,
     TRY(draw_rings(pic));
     TRY(draw_bar(pic, &s));
     TRY(draw_names(pic, &s, title));
-    TRY(output_file_reserve(&file, path));
+    TRY(output_file_open(&file, path));
     TRY(picture_write(pic, file));
     TRY(output_file_commit(file));
 out:

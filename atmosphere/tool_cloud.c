@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char name[] = "radsig-atmosphere cloud";
+static const char command[] = "radsig-atmosphere cloud";
 
 static const char purpose[] = "Writes the extinction of one of LOWTRAN 7's clouds, and beside it "
                               "FILE.scattering.csv with its\n"
@@ -44,7 +44,7 @@ int tool_cloud(int argc, char **argv)
 {
     const char *output = NULL;
     option list[] = {tool_output_option(&output, "FILE.ext")};
-    const option_table table = {name, "NAME", 1, 1, purpose, list, sizeof list / sizeof *list};
+    const option_table table = {command, "NAME", 1, 1, purpose, list, sizeof list / sizeof *list};
     const int code = option_table_read(&table, argc, argv, NULL);
     char hint[SPELLING_HINT_SIZE];
 
@@ -52,7 +52,7 @@ int tool_cloud(int argc, char **argv)
     spelling near = spelling_of(argv[1]);
     const cloud_model *model = find_model(argv[1], &near);
     if (!model)
-        return program_misuse(name, "unknown cloud '%s'%s", argv[1],
+        return program_misuse(command, "unknown cloud '%s'%s", argv[1],
                               spelling_hint(&near, "", hint));
-    return program_end(name, run(model, output));
+    return program_end(command, run(model, output));
 }

@@ -4,7 +4,7 @@
 
 #include <limits.h>
 
-static const char name[] = "radsig-atmosphere deck";
+static const char command[] = "radsig-atmosphere deck";
 
 static const char purpose[] = "Runs card decks of LOWTRAN 7 as they stand and writes a text "
                               "radiance database as far as they\n"
@@ -37,10 +37,10 @@ int tool_deck(int argc, char **argv)
     const char *output = NULL;
     option list[] = {tool_output_option(&output, "FILE.rad")};
     const option_table table = {
-        name, "FILE.cdk...", 1, INT_MAX, purpose, list, sizeof list / sizeof *list};
+        command, "FILE.cdk...", 1, INT_MAX, purpose, list, sizeof list / sizeof *list};
     int count = 0;
     const int code = option_table_read(&table, argc, argv, &count);
 
     if (code != OPTION_TABLE_DONE) return code;
-    return program_end(name, run(argv + 1, (size_t)count, output));
+    return program_end(command, run(argv + 1, (size_t)count, output));
 }

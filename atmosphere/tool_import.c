@@ -1,7 +1,7 @@
 #include "import.h"
 #include "tool.h"
 
-static const char name[] = "radsig-atmosphere import";
+static const char command[] = "radsig-atmosphere import";
 
 static const char purpose[] = "Makes a radiance database from MODTRAN's own output (tape7, .tp7, "
                               ".7sc). The manifest names the\n"
@@ -25,9 +25,9 @@ int tool_import(int argc, char **argv)
 {
     const char *output = NULL;
     option list[] = {tool_output_option(&output, "FILE.rad")};
-    const option_table table = {name, "MANIFEST.toml",           1, 1, purpose,
-                                list, sizeof list / sizeof *list};
+    const option_table table = {command, "MANIFEST.toml",           1, 1, purpose,
+                                list,    sizeof list / sizeof *list};
     const int code = option_table_read(&table, argc, argv, NULL);
 
-    return code == OPTION_TABLE_DONE ? program_end(name, run(argv[1], output)) : code;
+    return code == OPTION_TABLE_DONE ? program_end(command, run(argv[1], output)) : code;
 }

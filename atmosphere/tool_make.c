@@ -1,18 +1,17 @@
 #include "database_header.h"
-#include "output_file.h"
+#include "output_folder.h"
 #include "phase_table.h"
 #include "sonde_profile.h"
 #include "tool.h"
 
-#include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-static const char name[] = "radsig-atmosphere make";
+static const char command[] = "radsig-atmosphere make";
 
 static const char purpose[] =
     "Makes the radiance database of a scene from its site, time, weather, camera and its table\n"
@@ -42,24 +41,23 @@ static status take(void *receiver, size_t index, const lowtran_run *run)
     return rc;
 }
 
-static status keep_decks(const recipe *r, const char *folder)
+static status keep_decks(const recipe *r, const char *path)
 {
     status rc = STATUS_OK;
+    output_folder *folder = NULL;
     output_file *file = NULL;
-    char path[4096];
+    char name[NAME_MAX + 1];
 
-    NEED(mkdir(folder, 0777) == 0 || errno == EEXIST, STATUS_FILE, "%s: %s", folder,
-         strerror(errno));
+    TRY(output_folder_open(&folder, path));
     for (size_t i = 0; i < recipe_count(r); i++) {
-        snprintf(path, sizeof path, "%s/%s.cdk", folder, recipe_names(r)[i]);
-        TRY(output_file_open(&file, path));
+        snprintf(name, sizeof name, "%s.cdk", recipe_names(r)[i]);
+        TRY(output_folder_add(folder, name, &file));
         fputs(recipe_decks(r)[i], output_file_stream(file));
-        TRY(output_file_commit(file));
-        output_file_free(file);
-        file = NULL;
+        TRY(output_file_close(file));
     }
+    TRY(output_folder_commit(folder));
 out:
-    output_file_free(file);
+    output_folder_free(folder);
     return rc;
 }
 
@@ -154,8 +152,8 @@ int tool_make(int argc, char **argv)
                      {"keep-decks", 0, "FOLDER", "write the card deck of each run there",
                       .text = &options.keep_decks}};
     const option_table table = {
-        name, "SCENE.toml", 1, 1, purpose, list, sizeof list / sizeof *list};
+        command, "SCENE.toml", 1, 1, purpose, list, sizeof list / sizeof *list};
     const int code = option_table_read(&table, argc, argv, NULL);
 
-    return code == OPTION_TABLE_DONE ? program_end(name, run(argv[1], &options)) : code;
+    return code == OPTION_TABLE_DONE ? program_end(command, run(argv[1], &options)) : code;
 }

@@ -1,12 +1,13 @@
 #include "database_header.h"
 #include "database_plot.h"
+#include "picture.h"
 #include "tool.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static const char name[] = "radsig-atmosphere show";
+static const char command[] = "radsig-atmosphere show";
 
 static const char purpose[] =
     "Prints what a radiance database, text or container, holds, but for the cards of its runs.\n";
@@ -89,6 +90,7 @@ static status run(const char *path, const char *plot)
     status rc = STATUS_OK;
     atmosphere *a = NULL;
 
+    if (plot) TRY(picture_prepare());
     TRY(atmosphere_read(&a, path));
     print_header(a->header);
     print_grids(a);
@@ -109,8 +111,9 @@ int tool_show(int argc, char **argv)
          "STEM_emitted.png and STEM_scattered.png, the sky by direction: zenith in the "
          "middle, north on top",
          .text = &plot}};
-    const option_table table = {name, "FILE.rad", 1, 1, purpose, list, sizeof list / sizeof *list};
+    const option_table table = {
+        command, "FILE.rad", 1, 1, purpose, list, sizeof list / sizeof *list};
     const int code = option_table_read(&table, argc, argv, NULL);
 
-    return code == OPTION_TABLE_DONE ? program_end(name, run(argv[1], plot)) : code;
+    return code == OPTION_TABLE_DONE ? program_end(command, run(argv[1], plot)) : code;
 }

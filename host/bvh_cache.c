@@ -1,5 +1,7 @@
 #include "bvh_cache.h"
 
+#include "output_file.h"
+
 #include <fcntl.h>
 #include <sha2.h>
 #include <stdbool.h>
@@ -153,32 +155,22 @@ static bool write_tree(FILE *file, const header *h, const bvh_tables *t)
            fwrite(t->block, sizeof *t->block, t->block_count, file) == t->block_count;
 }
 
-/* Writes under a name of its own, then renames: others see a whole file or none. */
+/* Others see a whole file or none. */
 static void store(const bvh_tables *t, const char *path, const uint8_t key[KEY_SIZE])
 {
     header h = {.node_count = t->node_count,
                 .block_count = t->block_count,
                 .triangle_count = t->triangle_count};
-    char temporary[PATH_SIZE + 16];
-    bool is_written = false;
-    FILE *file = NULL;
+    output_file *file = NULL;
 
     memcpy(h.magic, magic, sizeof magic);
     memcpy(h.key, key, KEY_SIZE);
     memcpy(h.low, t->low, sizeof h.low);
     memcpy(h.high, t->high, sizeof h.high);
     h.check = check_of(&h, t);
-    snprintf(temporary, sizeof temporary, "%s.XXXXXX", path);
-    const int descriptor = mkstemp(temporary);
-    if (descriptor < 0) return;
-    file = fdopen(descriptor, "wb");
-    if (file) {
-        is_written = write_tree(file, &h, t);
-        is_written = fclose(file) == 0 && is_written;
-    } else {
-        close(descriptor);
-    }
-    if (!is_written || rename(temporary, path) != 0) unlink(temporary);
+    if (output_file_open(&file, path) != STATUS_OK) return;
+    if (write_tree(output_file_stream(file), &h, t)) output_file_commit(file);
+    output_file_free(file);
 }
 
 status bvh_cache_build(bvh **out, const bvh_source *source)

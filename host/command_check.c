@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-static const char name[] = "radsig check";
+static const char command[] = "radsig check";
 
 static const char purpose[] =
     "Reads everything that a render of the scene would read, reports every error it can find on\n"
@@ -145,14 +145,14 @@ int command_check(int argc, char **argv)
 {
     command_settings settings = {0};
     option list[] = {command_set_option(&settings)};
-    const option_table table = {name, "SCENE", 1, 1, purpose, list, sizeof list / sizeof *list};
+    const option_table table = {command, "SCENE", 1, 1, purpose, list, sizeof list / sizeof *list};
     scene *s = NULL;
     int code = option_table_read(&table, argc, argv, NULL);
 
     if (code == OPTION_TABLE_DONE) {
         const status rc = command_scene_read(&s, argv[1], &settings);
         if (rc == STATUS_OK) print_summary(s);
-        code = program_end(name, rc);
+        code = program_end(command, rc);
     }
     scene_free(s);
     command_settings_free(&settings);

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const char name[] = "radsig devices";
+static const char command[] = "radsig devices";
 
 static const char purpose[] =
     "Lists the OpenCL devices of all platforms; * marks the default. The number in the first\n"
@@ -22,7 +22,7 @@ static void print_devices(const device_info *info, size_t count)
 
 int command_devices(int argc, char **argv)
 {
-    const option_table table = {.command = name, .purpose = purpose};
+    const option_table table = {.command = command, .purpose = purpose};
     const int code = option_table_read(&table, argc, argv, NULL);
     device_info *info = NULL;
     size_t count = 0;
@@ -32,5 +32,5 @@ int command_devices(int argc, char **argv)
     rc = device_list(&info, &count);
     if (rc == STATUS_OK) print_devices(info, count);
     free(info);
-    return program_end(name, rc);
+    return program_end(command, rc);
 }

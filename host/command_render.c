@@ -3,6 +3,7 @@
 #include "command_value.h"
 #include "errand.h"
 #include "number.h"
+#include "picture.h"
 #include "pocl_affinity.h"
 #include "render_output.h"
 
@@ -12,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char name[] = "radsig render";
+static const char command[] = "radsig render";
 
 static const char purpose[] =
     "Makes the radiance image of a scene and its truth planes:\n"
@@ -139,7 +140,7 @@ static int read_arguments(arguments *a, int argc, char **argv)
         {"exr", 0, NULL, "write NAME.exr above 16 bands too", .flag = &a->output.wants_exr},
         {"device", 0, "N[,M...]", "OpenCL devices, see radsig devices; several share the tiles",
          .out = a, .read = read_devices}};
-    const option_table table = {name, "SCENE", 1, 1, purpose, list, sizeof list / sizeof *list};
+    const option_table table = {command, "SCENE", 1, 1, purpose, list, sizeof list / sizeof *list};
     const int code = option_table_read(&table, argc, argv, NULL);
 
     a->output.scene_path = argv[1];
@@ -151,7 +152,7 @@ typedef struct opening {
     const arguments *a;
     scene *s;
     device *dev[DEVICE_LIMIT];
-    atomic_bool is_vain; /* the scene has failed */
+    atomic_bool is_vain; /* the scene, or what writes pictures, has failed */
 } opening;
 
 static status read_scene(void *self)
@@ -161,6 +162,17 @@ static status read_scene(void *self)
 
     TRY(command_scene_read(&o->s, o->a->output.scene_path, &o->a->settings));
     if (o->a->bands) TRY(scene_keep_bands(o->s, o->a->bands));
+out:
+    if (rc != STATUS_OK) o->is_vain = true;
+    return rc;
+}
+
+static status prepare_pictures(void *self)
+{
+    status rc = STATUS_OK;
+    opening *o = self;
+
+    TRY(picture_prepare());
 out:
     if (rc != STATUS_OK) o->is_vain = true;
     return rc;
@@ -183,7 +195,7 @@ static status run(const arguments *a)
 {
     status rc = STATUS_OK;
     opening o = {.a = a};
-    const errand list[] = {{read_scene, &o}, {open_devices, &o}};
+    const errand list[] = {{read_scene, &o}, {prepare_pictures, &o}, {open_devices, &o}};
 
     pocl_affinity_set(); /* the environment is another thread's later */
     TRY(errand_run(list, sizeof list / sizeof *list));
@@ -201,7 +213,7 @@ int command_render(int argc, char **argv)
     arguments *a = calloc(1, sizeof *a);
     int code;
 
-    if (!a) return program_end(name, status_set(STATUS_MEMORY, "no memory"));
+    if (!a) return program_end(command, status_set(STATUS_MEMORY, "no memory"));
     a->device[0] = -1;
     a->device_count = 1;
     a->output.stop = &stop;
@@ -211,7 +223,7 @@ int command_render(int argc, char **argv)
         const struct sigaction action = {.sa_handler = on_signal};
         sigaction(SIGINT, &action, NULL);
         sigaction(SIGTERM, &action, NULL);
-        code = program_end(name, run(a));
+        code = program_end(command, run(a));
     }
     command_settings_free(&a->settings);
     free(a);

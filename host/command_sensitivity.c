@@ -1,6 +1,7 @@
 #include "command_sensitivity.h"
 
 #include "curve.h"
+#include "picture.h"
 #include "record_file.h"
 #include "sensitivity.h"
 #include "weather_history.h"
@@ -216,6 +217,7 @@ status command_sensitivity(const sensitivity_request *request)
     device *dev = NULL;
     sensitivity result = {0};
 
+    if (request->plot) TRY(picture_prepare());
     TRY(material_library_read(&library, request->materials));
     TRY(list_objects(&list, request, library));
     TRY(weather_history_read(&w, request->weather, &request->place));

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const char name[] = "radsig shape-factor";
+static const char command[] = "radsig shape-factor";
 
 static const char purpose[] =
     "Prints the share of the hemisphere above a point that sees the sky, 0 to 1. There is no\n"
@@ -65,13 +65,13 @@ static int read_arguments(int argc, char **argv, factor_request *out)
         command_cull_option(&out->cull_back),
         command_device_option(&out->device_index)};
     const option_table table = {
-        name, "MESH...", 1, INT_MAX, purpose, list, sizeof list / sizeof *list};
+        command, "MESH...", 1, INT_MAX, purpose, list, sizeof list / sizeof *list};
     int count = 0;
     const int code = option_table_read(&table, argc, argv, &count);
 
     if (code != OPTION_TABLE_DONE) return code;
     if (shape_factor_check_steps(out->zenith_step_deg, out->azimuth_step_deg) != STATUS_OK)
-        return program_misuse(name, "%s", status_message());
+        return program_misuse(command, "%s", status_message());
     out->path = argv + 1;
     out->path_count = (size_t)count;
     return OPTION_TABLE_DONE;
@@ -154,5 +154,5 @@ int command_shape_factor(int argc, char **argv)
                               .device_index = -1};
     const int code = read_arguments(argc, argv, &request);
 
-    return code == OPTION_TABLE_DONE ? program_end(name, run(&request)) : code;
+    return code == OPTION_TABLE_DONE ? program_end(command, run(&request)) : code;
 }

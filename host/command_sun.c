@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-static const char name[] = "radsig sun";
+static const char command[] = "radsig sun";
 
 static const char purpose[] =
     "Prints time,zenith_deg,azimuth_deg,distance_au: the sun's zenith angle without refraction,\n"
@@ -27,15 +27,15 @@ static int read_arguments(int argc, char **argv, sun_request *out)
                      {"step-min", 0, "N", "minutes from row to row", .number = &out->step_min,
                       .low = 1e-3, .high = 1e9}};
     const option_table table = {
-        .command = name, .purpose = purpose, .list = list, .count = sizeof list / sizeof *list};
+        .command = command, .purpose = purpose, .list = list, .count = sizeof list / sizeof *list};
     const int code = option_table_read(&table, argc, argv, NULL);
 
     if (code != OPTION_TABLE_DONE) return code;
     if (option_table_has(&table, "until") != option_table_has(&table, "step-min"))
-        return program_misuse(name, "--until and --step-min go together");
+        return program_misuse(command, "--until and --step-min go together");
     if (out->step_min == 0.0) out->last = out->place;
     if (out->last.time_s < out->place.time_s)
-        return program_misuse(name, "--until is before --time");
+        return program_misuse(command, "--until is before --time");
     return OPTION_TABLE_DONE;
 }
 

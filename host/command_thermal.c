@@ -3,6 +3,7 @@
 #include "command_value.h"
 #include "constants.h"
 #include "curve.h"
+#include "picture.h"
 #include "thermal.h"
 #include "weather_history.h"
 #include "weather_place.h"
@@ -13,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char name[] = "radsig thermal";
+static const char command[] = "radsig thermal";
 
 static const char purpose[] =
     "Takes one facet in full sun through a weather history and prints time_h,temperature_c, a row\n"
@@ -46,13 +47,14 @@ static int check_use(const option_table *t, const thermal_request *r)
 
     for (int i = 0; i < 3; i++)
         if (option_table_has(t, of_study[i]) && !r->is_sensitivity)
-            return program_misuse(name, "--%s needs --sensitivity", of_study[i]);
+            return program_misuse(command, "--%s needs --sensitivity", of_study[i]);
     for (int i = 0; i < 5; i++)
         if (r->objects && option_table_has(t, of_facet[i]))
-            return program_misuse(name, "--objects says what --%s says: give one", of_facet[i]);
-    if (!r->material && !r->is_sensitivity) return program_misuse(name, "needs --material NAME");
+            return program_misuse(command, "--objects says what --%s says: give one", of_facet[i]);
+    if (!r->material && !r->is_sensitivity) return program_misuse(command, "needs --material NAME");
     if (!option_table_has(t, "thickness-cm") && !r->objects)
-        return program_misuse(name, "needs --thickness-cm X: a material has none, its facets have");
+        return program_misuse(command,
+                              "needs --thickness-cm X: a material has none, its facets have");
     return OPTION_TABLE_DONE;
 }
 
@@ -98,7 +100,7 @@ static int read_arguments(int argc, char **argv, thermal_request *out)
         {"seed", 0, "N", "of the random numbers (default 1)", .whole = &out->seed, .low = 0,
          .high = UINT32_MAX}};
     const option_table table = {
-        .command = name, .purpose = purpose, .list = list, .count = sizeof list / sizeof *list};
+        .command = command, .purpose = purpose, .list = list, .count = sizeof list / sizeof *list};
     const int code = option_table_read(&table, argc, argv, NULL);
 
     out->place = command_day_site(&out->day);
@@ -175,6 +177,7 @@ static status run(const thermal_request *request)
     const thermal_matter matter = {&record, request->model == MODEL_LAYERED ? &layered : NULL, NULL,
                                    1, command_laws_of(&request->laws)};
 
+    if (request->plot) TRY(picture_prepare());
     TRY(material_library_read(&library, request->materials));
     const material *named = material_by_name(library, request->material);
     if (!named) TRY(command_refuse_material(library, request->materials, request->material));
@@ -219,5 +222,5 @@ int command_thermal(int argc, char **argv)
     const int code = read_arguments(argc, argv, &request);
 
     if (code != OPTION_TABLE_DONE) return code;
-    return program_end(name, request.is_sensitivity ? run_sensitivity(&request) : run(&request));
+    return program_end(command, request.is_sensitivity ? run_sensitivity(&request) : run(&request));
 }

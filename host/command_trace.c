@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char name[] = "radsig trace";
+static const char command[] = "radsig trace";
 
 static const char purpose[] =
     "Reads rays from stdin, a line `ox oy oz dx dy dz` each, and prints t_m,facet for each: the\n"
@@ -42,7 +42,7 @@ static int read_arguments(int argc, char **argv, trace_request *out)
          .flag = &out->binary},
         command_device_option(&out->device_index)};
     const option_table table = {
-        name, "MESH...", 1, INT_MAX, purpose, list, sizeof list / sizeof *list};
+        command, "MESH...", 1, INT_MAX, purpose, list, sizeof list / sizeof *list};
     int count = 0;
     const int code = option_table_read(&table, argc, argv, &count);
 
@@ -159,5 +159,5 @@ int command_trace(int argc, char **argv)
     trace_request request = {.device_index = -1};
     const int code = read_arguments(argc, argv, &request);
 
-    return code == OPTION_TABLE_DONE ? program_end(name, run(&request)) : code;
+    return code == OPTION_TABLE_DONE ? program_end(command, run(&request)) : code;
 }

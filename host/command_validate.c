@@ -4,6 +4,7 @@
 #include "curve.h"
 #include "number.h"
 #include "output_file.h"
+#include "picture.h"
 #include "thermal.h"
 #include "weather_table.h"
 
@@ -12,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char name[] = "radsig validate";
+static const char command[] = "radsig validate";
 
 static const char purpose[] =
     "Takes a level surface through measured weather and compares its temperature with the\n"
@@ -53,10 +54,10 @@ static int check_use(const option_table *t, validation *out, char **argv)
                                         LAYERED_BACK_GROUND};
 
     if (strcmp(argv[1], "thermal"))
-        return program_misuse(name, "found '%s', expected thermal FILE.csv", argv[1]);
+        return program_misuse(command, "found '%s', expected thermal FILE.csv", argv[1]);
     if (out->model == MODEL_THERM &&
         (option_table_has(t, "surface-resistance-s-m") || option_table_has(t, "back")))
-        return program_misuse(name, "--surface-resistance-s-m and --back need --model layered");
+        return program_misuse(command, "--surface-resistance-s-m and --back need --model layered");
     out->table = argv[2];
     out->place = command_day_site(&out->day);
     out->layered.back = back[out->back];
@@ -103,8 +104,8 @@ static int read_arguments(int argc, char **argv, validation *out)
         command_wind_height_option(&out->laws),
         {"output", 'o', "FILE.csv", "write time_h,measured_c,predicted_c", .text = &out->output},
         {"plot", 0, "FILE.png", "draw both", .text = &out->plot}};
-    const option_table table = {name, "thermal FILE.csv",        2, 2, purpose,
-                                list, sizeof list / sizeof *list};
+    const option_table table = {command, "thermal FILE.csv",        2, 2, purpose,
+                                list,    sizeof list / sizeof *list};
     const int code = option_table_read(&table, argc, argv, NULL);
 
     return code == OPTION_TABLE_DONE ? check_use(&table, out, argv) : code;
@@ -225,6 +226,7 @@ static status run(const validation *v)
     weather_table t = {0};
     float *predicted_k = NULL;
 
+    if (v->plot) TRY(picture_prepare());
     TRY(weather_table_read(&t, v->table));
     TRY(set_measured(&t, v));
     predicted_k = malloc(t.history->count * sizeof *predicted_k);
@@ -244,5 +246,5 @@ int command_validate(int argc, char **argv)
     validation v = {.layered = layered_matter_default(), .laws.convection = -1};
     const int code = read_arguments(argc, argv, &v);
 
-    return code == OPTION_TABLE_DONE ? program_end(name, run(&v)) : code;
+    return code == OPTION_TABLE_DONE ? program_end(command, run(&v)) : code;
 }

@@ -2,7 +2,7 @@
 #include "command_scene.h"
 #include "weather.h"
 
-static const char name[] = "radsig weather";
+static const char command[] = "radsig weather";
 
 static const char purpose[] = "Writes the weather of a scene as a .wth history: one that it "
                               "synthesises, to be edited, or one\n"
@@ -41,10 +41,10 @@ int command_weather(int argc, char **argv)
     option list[] = {
         {"output", 'o', "FILE.wth", "the file to write", .text = &path, .is_required = true},
         command_set_option(&settings)};
-    const option_table table = {name, "SCENE", 1, 1, purpose, list, sizeof list / sizeof *list};
+    const option_table table = {command, "SCENE", 1, 1, purpose, list, sizeof list / sizeof *list};
     int code = option_table_read(&table, argc, argv, NULL);
 
-    if (code == OPTION_TABLE_DONE) code = program_end(name, run(argv[1], &settings, path));
+    if (code == OPTION_TABLE_DONE) code = program_end(command, run(argv[1], &settings, path));
     command_settings_free(&settings);
     return code;
 }

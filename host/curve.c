@@ -177,7 +177,7 @@ out:
     return rc;
 }
 
-static status write_page(const output_file *place, const curve *c)
+static status write_page(output_file *place, const curve *c)
 {
     status rc = STATUS_OK;
     const axes a = axes_of(c);
@@ -198,7 +198,7 @@ status curve_write(const char *path, const curve *c)
     status rc = STATUS_OK;
     output_file *file = NULL;
 
-    TRY(output_file_reserve(&file, path));
+    TRY(output_file_open(&file, path));
     TRY(write_page(file, c));
     TRY(output_file_commit(file));
 out:
@@ -209,7 +209,7 @@ out:
 status curve_write_into(output_folder *folder, const char *name, const curve *c)
 {
     status rc = STATUS_OK;
-    const output_file *place;
+    output_file *place;
 
     TRY(output_folder_add(folder, name, &place));
     TRY(write_page(place, c));

@@ -23,8 +23,8 @@ struct image {
     float *value; /* shape (plane_count, rows, columns), mapped */
     size_t bytes;
     char *stem;
-    const output_file *header; /* belongs to the folder */
-    int file;                  /* -1: none */
+    output_file *header; /* belongs to the folder, as does what `file` is of */
+    int file;
 };
 
 static status copy_planes(image *img, const image_plane *plane, size_t plane_count)
@@ -47,7 +47,7 @@ out:
 }
 
 /* The disk is taken first: writing to a map when the disk is full kills the process. */
-static status map_values(image *img, const output_file *place)
+static status map_values(image *img, output_file *place)
 {
     status rc = STATUS_OK;
     const char *path = output_file_path(place);
@@ -60,9 +60,7 @@ static status map_values(image *img, const output_file *place)
          STATUS_ARGUMENT, "%s: %u x %u pixels of %zu planes are too many", img->stem, img->columns,
          img->rows, img->plane_count);
     img->bytes = (size_t)img->columns * img->rows * img->plane_count * sizeof(float);
-    file = img->file =
-        open(output_file_temporary_path(place), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    NEED(file >= 0, STATUS_FILE, "%s: %s", path, strerror(errno));
+    file = img->file = fileno(output_file_stream(place));
     error = posix_fallocate(file, 0, (off_t)img->bytes);
     NEED(error == 0, STATUS_FILE, "%s: no place for %zu bytes: %s", path, img->bytes,
          strerror(error));
@@ -75,7 +73,7 @@ out:
 }
 
 static status add_file(output_folder *folder, const char *stem, const char *extension,
-                       const output_file **out)
+                       output_file **out)
 {
     status rc = STATUS_OK;
     const size_t size = strlen(stem) + strlen(extension) + 1;
@@ -93,12 +91,11 @@ status image_create(image **out, output_folder *folder, const char *stem, uint32
                     uint32_t rows, const image_plane *plane, size_t plane_count)
 {
     status rc = STATUS_OK;
-    const output_file *place = NULL;
+    output_file *place = NULL;
     image *img = calloc(1, sizeof *img);
 
     NEED(img, STATUS_MEMORY, "%s: no memory to write it", stem);
     assert(plane_count > 0);
-    img->file = -1;
     img->stem = strdup(stem);
     NEED(img->stem, STATUS_MEMORY, "%s: no memory to write it", stem);
     img->columns = columns;
@@ -340,15 +337,16 @@ status image_write_exr(output_folder *folder, const char *name, image *const *im
     exr_texts texts = {0};
     image_channel *channel = NULL;
     size_t channel_count = 0;
-    const output_file *place = NULL;
+    output_file *place = NULL;
 
     TRY(add_header(&texts, header));
     TRY(add_channels(&texts, &channel, &channel_count, img, image_count));
     TRY(output_folder_add(folder, name, &place));
     const image_frame frame = {img[0]->columns, img[0]->rows, texts.text, texts.count};
-    NEED(image_file_write_exr(output_file_temporary_path(place), &frame, channel, channel_count,
-                              IMAGE_ZIP, message, sizeof message) == 0,
+    NEED(image_file_write_exr(output_file_stream(place), output_file_path(place), &frame, channel,
+                              channel_count, IMAGE_ZIP, message, sizeof message) == 0,
          STATUS_FILE, "%s", message);
+    TRY(output_file_close(place));
 out:
     free(channel);
     exr_texts_free(&texts);
@@ -359,7 +357,6 @@ void image_free(image *img)
 {
     if (!img) return;
     if (img->value) munmap(img->value, img->bytes);
-    if (img->file >= 0) close(img->file);
     for (size_t p = 0; p < img->plane_count; p++) {
         free((char *)img->plane[p].name);
         free((char *)img->plane[p].unit);

@@ -1,6 +1,5 @@
 #include "image_header.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -129,14 +128,11 @@ static void put_description(FILE *file, const image *img, const char *text, bool
     fputs("}\n", file);
 }
 
-status image_header_write(const output_file *place, const image *img, const image_header *header)
+status image_header_write(output_file *place, const image *img, const image_header *header)
 {
-    status rc = STATUS_OK;
     const bool cube = is_cube(img);
-    const char *path = output_file_path(place);
-    FILE *file = fopen(output_file_temporary_path(place), "w");
+    FILE *file = output_file_stream(place);
 
-    NEED(file, STATUS_FILE, "%s: %s", path, strerror(errno));
     fputs("ENVI\n", file);
     put_description(file, img, header->description, cube);
     fprintf(file, "samples = %u\nlines = %u\nbands = %zu\n", image_columns(img), image_rows(img),
@@ -152,10 +148,5 @@ status image_header_write(const output_file *place, const image *img, const imag
     fputs("data ignore value = -9999\n", file);
     put_line(file, "acquisition time", header->time);
     for (size_t i = 0; i < header->field_count; i++) put_field(file, &header->field[i]);
-    NEED(fflush(file) == 0 && !ferror(file), STATUS_FILE, "%s: writing failed: %s", path,
-         strerror(errno));
-out:
-    if (file && fclose(file) != 0 && rc == STATUS_OK)
-        rc = status_set(STATUS_FILE, "%s: writing failed: %s", path, strerror(errno));
-    return rc;
+    return output_file_close(place);
 }

@@ -6,6 +6,6 @@
 #include "image.h"
 
 /* Writes the header under the temporary path of `place`, which stays to be committed. */
-status image_header_write(const output_file *place, const image *img, const image_header *header);
+status image_header_write(output_file *place, const image *img, const image_header *header);
 
 #endif

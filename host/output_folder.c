@@ -10,7 +10,8 @@
 
 struct output_folder {
     char *path;
-    char *made;         /* shape (length of the path + 1): 1 where a part that was made ends */
+    char *made; /* shape (length of the path + 1): 1 where a part that was made ends */
+    staging_folder *staging;
     output_file **file; /* shape (file_count) */
     size_t file_count;
     pthread_mutex_t lock; /* of the list of files */
@@ -21,15 +22,13 @@ static status make(output_folder *folder, const char *part, size_t length)
 {
     status rc = STATUS_OK;
     struct stat found;
+    const int error = mkdir(part, 0777) == 0 ? 0 : errno;
 
-    if (mkdir(part, 0777) == 0) {
-        folder->made[length] = 1;
-        goto out;
-    }
-    NEED(errno == EEXIST || (stat(part, &found) == 0 && S_ISDIR(found.st_mode)), STATUS_FILE,
-         "%s: cannot be made: %s", part, strerror(errno));
-    NEED(stat(part, &found) == 0 && S_ISDIR(found.st_mode), STATUS_FILE,
-         "%s: is no folder, so %s cannot be written", part, folder->path);
+    folder->made[length] = error == 0;
+    if (error == 0 || (stat(part, &found) == 0 && S_ISDIR(found.st_mode))) goto out;
+    NEED(error != EEXIST, STATUS_FILE, "%s: is not a folder, so %s cannot be written", part,
+         folder->path);
+    rc = status_set(STATUS_FILE, "%s: cannot be made: %s", part, strerror(error));
 out:
     return rc;
 }
@@ -53,8 +52,6 @@ static status make_with_parents(output_folder *folder)
         TRY(make(folder, part, length));
         part[length] = folder->path[length];
     }
-    NEED(access(folder->path, W_OK | X_OK) == 0, STATUS_FILE, "%s: files cannot be made in it: %s",
-         folder->path, strerror(errno));
 out:
     free(part);
     return rc;
@@ -72,6 +69,7 @@ status output_folder_open(output_folder **out, const char *path)
     folder->made = calloc(strlen(folder->path) + 1, 1);
     NEED(folder->made, STATUS_MEMORY, "%s: no memory to make it", path);
     TRY(make_with_parents(folder));
+    TRY(staging_folder_open(&folder->staging, folder->path));
     *out = folder;
     folder = NULL;
 out:
@@ -79,7 +77,7 @@ out:
     return rc;
 }
 
-status output_folder_add(output_folder *folder, const char *name, const output_file **out)
+status output_folder_add(output_folder *folder, const char *name, output_file **out)
 {
     status rc = STATUS_OK;
     const size_t size = strlen(folder->path) + strlen(name) + 2;
@@ -92,7 +90,7 @@ status output_folder_add(output_folder *folder, const char *name, const output_f
     more = realloc(folder->file, (folder->file_count + 1) * sizeof(output_file *));
     NEED(more, STATUS_MEMORY, "%s: no memory to write it", path);
     folder->file = more;
-    TRY(output_file_reserve(&folder->file[folder->file_count], path));
+    TRY(output_file_open_staged(&folder->file[folder->file_count], folder->staging, path));
     *out = folder->file[folder->file_count++];
 out:
     pthread_mutex_unlock(&folder->lock);
@@ -100,27 +98,11 @@ out:
     return rc;
 }
 
-/* A folder where a file should go would stop the renames halfway. */
-static status check_targets(const output_folder *folder)
-{
-    status rc = STATUS_OK;
-    struct stat found;
-
-    for (size_t i = 0; i < folder->file_count; i++) {
-        const char *path = output_file_path(folder->file[i]);
-        NEED(stat(path, &found) != 0 || !S_ISDIR(found.st_mode), STATUS_FILE,
-             "%s: is a folder, expected a file or nothing", path);
-    }
-out:
-    return rc;
-}
-
 status output_folder_commit(output_folder *folder)
 {
     status rc = STATUS_OK;
 
-    TRY(check_targets(folder));
-    for (size_t i = 0; i < folder->file_count; i++) TRY(output_file_commit(folder->file[i]));
+    TRY(output_file_commit_all(folder->file, folder->file_count));
     folder->committed = true;
 out:
     return rc;
@@ -140,6 +122,7 @@ void output_folder_free(output_folder *folder)
 {
     if (!folder) return;
     for (size_t i = 0; i < folder->file_count; i++) output_file_free(folder->file[i]);
+    staging_folder_free(folder->staging);
     if (folder->made && !folder->committed) remove_made(folder);
     pthread_mutex_destroy(&folder->lock);
     free(folder->made);

@@ -13,6 +13,16 @@ struct picture {
     lettering_page page;
 };
 
+status picture_prepare(void)
+{
+    status rc = STATUS_OK;
+    char message[MESSAGE_SIZE] = "";
+
+    NEED(image_file_prepare(message, sizeof message) == 0, STATUS_FILE, "%s", message);
+out:
+    return rc;
+}
+
 status picture_create(picture **out, uint32_t width, uint32_t height)
 {
     status rc = STATUS_OK;
@@ -64,15 +74,16 @@ out:
     return rc;
 }
 
-status picture_write(const picture *pic, const output_file *place)
+status picture_write(const picture *pic, output_file *place)
 {
     status rc = STATUS_OK;
     char message[MESSAGE_SIZE] = "";
     const image_frame frame = {.width = pic->page.width, .height = pic->page.height};
 
-    NEED(image_file_write_png(output_file_temporary_path(place), &frame, pic->page.rgb, message,
-                              sizeof message) == 0,
+    NEED(image_file_write_png(output_file_stream(place), output_file_path(place), &frame,
+                              pic->page.rgb, message, sizeof message) == 0,
          STATUS_FILE, "%s", message);
+    TRY(output_file_close(place));
 out:
     return rc;
 }

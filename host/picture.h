@@ -8,6 +8,10 @@
 
 typedef struct picture picture;
 
+/* Loads what draws and writes pictures (image_file_prepare): first of all where a picture is the result.
+ * Fails with STATUS_FILE if it cannot be loaded. */
+status picture_prepare(void);
+
 /* White all over. */
 status picture_create(picture **out, uint32_t width, uint32_t height);
 
@@ -21,7 +25,7 @@ status picture_text(picture *pic, uint32_t x, uint32_t y, const char *text, int 
 status picture_text_width(uint32_t *out_width, const char *text, int size);
 
 /* Writes under the temporary path of `place`, which stays to be committed. */
-status picture_write(const picture *pic, const output_file *place);
+status picture_write(const picture *pic, output_file *place);
 
 void picture_free(picture *pic);
 

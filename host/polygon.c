@@ -1,14 +1,55 @@
 #include "polygon.h"
 
+#include "corner_tree.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 
+/* A corner of the ring of those that are left. One that is blocked, as another one lies in the
+ * triangle that would be cut with it, stays so until the other is cut or a neighbour of its own
+ * changes. UINT32_MAX: none. */
+typedef struct ring_corner {
+    uint32_t next, previous;
+    uint32_t blocks;         /* the first of the corners that it blocks */
+    uint32_t later, earlier; /* those beside it in the list of what blocks it */
+    uint32_t blocked_by;
+} ring_corner;
+
+/* One bit a corner. */
+typedef struct corner_set {
+    uint64_t *word;
+    uint32_t words;
+} corner_set;
+
 /* The face in the plane where its area is largest, turned so that it runs counter-clockwise. */
 typedef struct outline {
     double (*at)[2];
-    uint32_t *next, *previous;
+    ring_corner *ring;
+    corner_set possible; /* ears, and what was not looked at since it could have become one */
+    corner_set flat;     /* in line with their neighbours */
+    corner_tree *tree;   /* over those that are left */
 } outline;
+
+static void set_bit(corner_set *set, uint32_t corner, bool on)
+{
+    const uint64_t bit = 1ull << (corner & 63);
+
+    set->word[corner >> 6] = on ? set->word[corner >> 6] | bit : set->word[corner >> 6] & ~bit;
+}
+
+/* Finds the first corner of a set from `start` on, round the face; UINT32_MAX if it is empty. */
+static uint32_t first_from(const corner_set *set, uint32_t start)
+{
+    uint32_t w = start >> 6;
+    uint64_t word = set->word[w] & ~0ull << (start & 63);
+
+    for (uint32_t tries = 0; !word && tries < set->words; tries++) {
+        w = w + 1 < set->words ? w + 1 : 0;
+        word = set->word[w];
+    }
+    return word ? 64 * w + (uint32_t)__builtin_ctzll(word) : UINT32_MAX;
+}
 
 /* Newell's normal: its length is twice the area. */
 static void find_normal(double out[3], uint32_t count, const uint32_t *corner,
@@ -40,71 +81,140 @@ static void lay_flat(outline *o, uint32_t count, const uint32_t *corner,
         const int x = (axis + 1) % 3, y = (axis + 2) % 3;
         o->at[i][0] = p[x] - origin[x];
         o->at[i][1] = normal[axis] < 0 ? origin[y] - p[y] : p[y] - origin[y];
-        o->next[i] = (i + 1) % count;
-        o->previous[i] = (i + count - 1) % count;
     }
 }
 
-/* Twice the signed area of a triangle; positive to the left of a-b. */
-static double turn(const outline *o, uint32_t a, uint32_t b, uint32_t c)
+static double turn_of(const outline *o, uint32_t corner)
 {
-    return (o->at[b][0] - o->at[a][0]) * (o->at[c][1] - o->at[a][1]) -
-           (o->at[b][1] - o->at[a][1]) * (o->at[c][0] - o->at[a][0]);
+    const ring_corner *r = &o->ring[corner];
+
+    return corner_tree_turn(o->at[r->previous], o->at[corner], o->at[r->next]);
 }
 
-static bool is_same_place(const outline *o, uint32_t a, uint32_t b)
+/* Takes a corner out of the list of what blocks it. */
+static void unblock(outline *o, uint32_t corner)
 {
-    return o->at[a][0] == o->at[b][0] && o->at[a][1] == o->at[b][1];
+    ring_corner *r = &o->ring[corner];
+
+    if (r->blocked_by == UINT32_MAX) return;
+    if (r->later != UINT32_MAX) o->ring[r->later].earlier = r->earlier;
+    if (r->earlier != UINT32_MAX)
+        o->ring[r->earlier].later = r->later;
+    else
+        o->ring[r->blocked_by].blocks = r->later;
+    r->blocked_by = UINT32_MAX;
 }
 
-/* True where corner i sticks out and no other corner lies in the triangle that would be cut. */
-static bool is_ear(const outline *o, uint32_t i)
+static void block(outline *o, uint32_t corner, uint32_t blocker)
 {
-    const uint32_t a = o->previous[i], c = o->next[i];
+    ring_corner *r = &o->ring[corner];
 
-    if (turn(o, a, i, c) <= 0) return false;
-    for (uint32_t j = o->next[c]; j != a; j = o->next[j])
-        if (!is_same_place(o, j, a) && !is_same_place(o, j, i) && !is_same_place(o, j, c) &&
-            turn(o, a, i, j) >= 0 && turn(o, i, c, j) >= 0 && turn(o, c, a, j) >= 0)
-            return false;
-    return true;
+    r->blocked_by = blocker;
+    r->earlier = UINT32_MAX;
+    r->later = o->ring[blocker].blocks;
+    if (r->later != UINT32_MAX) o->ring[r->later].earlier = corner;
+    o->ring[blocker].blocks = corner;
+}
+
+/* True where a corner sticks out and no other corner lies in the triangle that would be cut. */
+static bool is_ear(outline *o, uint32_t corner)
+{
+    const uint32_t triangle[3] = {o->ring[corner].previous, corner, o->ring[corner].next};
+
+    if (turn_of(o, corner) <= 0) return false;
+    const uint32_t blocker = corner_tree_find(o->tree, triangle);
+    if (blocker == UINT32_MAX) return true;
+    block(o, corner, blocker);
+    return false;
 }
 
 /* Finds a corner to cut, from `start` on; where there is no ear, one without area, else any. */
-static uint32_t find_ear(const outline *o, uint32_t start, uint32_t left)
+static uint32_t find_ear(outline *o, uint32_t start)
 {
-    uint32_t i = start;
+    uint32_t i;
 
-    for (uint32_t tries = 0; tries < left; tries++, i = o->next[i])
+    for (; (i = first_from(&o->possible, start)) != UINT32_MAX; set_bit(&o->possible, i, false))
         if (is_ear(o, i)) return i;
-    for (uint32_t tries = 0; tries < left; tries++, i = o->next[i])
-        if (turn(o, o->previous[i], i, o->next[i]) == 0) return i;
-    return start;
+    i = first_from(&o->flat, start);
+    return i != UINT32_MAX ? i : start;
+}
+
+/* After a neighbour of a corner changed. */
+static void look_again(outline *o, uint32_t corner)
+{
+    unblock(o, corner);
+    set_bit(&o->possible, corner, true);
+    set_bit(&o->flat, corner, turn_of(o, corner) == 0);
+}
+
+static void cut(outline *o, uint32_t corner)
+{
+    const uint32_t a = o->ring[corner].previous, c = o->ring[corner].next;
+
+    unblock(o, corner);
+    set_bit(&o->possible, corner, false);
+    set_bit(&o->flat, corner, false);
+    corner_tree_remove(o->tree, corner);
+    for (uint32_t i; (i = o->ring[corner].blocks) != UINT32_MAX; unblock(o, i))
+        set_bit(&o->possible, i, true);
+    o->ring[a].next = c;
+    o->ring[c].previous = a;
+    look_again(o, a);
+    look_again(o, c);
+}
+
+static status open_outline(outline *o, uint32_t count, const uint32_t *corner,
+                           const double (*position)[3])
+{
+    status rc = STATUS_OK;
+    const uint32_t words = (count + 63) / 64;
+
+    *o = (outline){.at = malloc(count * sizeof *o->at),
+                   .ring = malloc(count * sizeof *o->ring),
+                   .possible = {calloc(words, sizeof(uint64_t)), words},
+                   .flat = {calloc(words, sizeof(uint64_t)), words}};
+    NEED(o->at && o->ring && o->possible.word && o->flat.word, STATUS_MEMORY,
+         "no memory for a face of %u corners", count);
+    lay_flat(o, count, corner, position);
+    for (uint32_t i = 0; i < count; i++)
+        o->ring[i] = (ring_corner){i + 1 < count ? i + 1 : 0,
+                                   i ? i - 1 : count - 1,
+                                   UINT32_MAX,
+                                   UINT32_MAX,
+                                   UINT32_MAX,
+                                   UINT32_MAX};
+    for (uint32_t i = 0; i < count; i++) look_again(o, i);
+    TRY(corner_tree_build(&o->tree, (const double(*)[2])o->at, count));
+out:
+    return rc;
+}
+
+static void close_outline(outline *o)
+{
+    corner_tree_free(o->tree);
+    free(o->flat.word);
+    free(o->possible.word);
+    free(o->ring);
+    free(o->at);
 }
 
 status polygon_split(uint32_t count, const uint32_t *corner, const double (*position)[3],
                      uint32_t (*out_triangle)[3])
 {
     status rc = STATUS_OK;
-    outline o = {malloc(count * sizeof *o.at), malloc(count * sizeof *o.next),
-                 malloc(count * sizeof *o.previous)};
-    uint32_t start = 1;
+    outline o = {0};
 
-    NEED(o.at && o.next && o.previous, STATUS_MEMORY, "no memory for a face of %u corners", count);
-    lay_flat(&o, count, corner, position);
-    for (uint32_t left = count, cut = 0; left >= 3; left--, cut++) {
-        const uint32_t i = find_ear(&o, start, left), a = o.previous[i], c = o.next[i];
-        out_triangle[cut][0] = corner[a];
-        out_triangle[cut][1] = corner[i];
-        out_triangle[cut][2] = corner[c];
-        o.next[a] = c;
-        o.previous[c] = a;
-        start = o.next[c];
+    TRY(open_outline(&o, count, corner, position));
+    for (uint32_t i = 0, start = 1; i < count - 2; i++) {
+        const uint32_t ear = find_ear(&o, start);
+        out_triangle[i][0] = corner[o.ring[ear].previous];
+        out_triangle[i][1] = corner[ear];
+        out_triangle[i][2] = corner[o.ring[ear].next];
+        start = o.ring[o.ring[ear].next].next;
+        cut(&o, ear);
     }
 out:
-    free(o.previous);
-    free(o.next);
-    free(o.at);
+    close_outline(&o);
     return rc;
 }
 

@@ -301,7 +301,7 @@ out:
 status quick_look_write(output_folder *folder, const char *name, const quick_look *look)
 {
     status rc = STATUS_OK;
-    const output_file *place = NULL;
+    output_file *place = NULL;
     picture *pic = NULL;
     layout *lay = calloc(1, sizeof *lay);
 

@@ -172,7 +172,7 @@ static status write_values(void *self, size_t plane, uint32_t first, uint32_t co
 {
     const writing *w = self;
     image *to = w->planes[plane].is_radiance ? w->cube : w->truth;
-    const size_t pixels = (size_t)w->s->camera.columns * (size_t)w->s->camera.rows;
+    const size_t pixels = (size_t)image_columns(to) * image_rows(to);
     const size_t place = (size_t)(w->values[plane] - image_values(to, 0)) / pixels;
 
     return image_write(to, place, first, count, values);
@@ -225,14 +225,15 @@ static status write_picture(void *self)
     return quick_look_write(d->folder, d->name, &d->look);
 }
 
-static void add_drawing(writing *w, drawings *to, const image_plane *plane, const float *value)
+static void add_drawing(writing *w, drawings *to, image *of, const image_plane *plane,
+                        const float *value)
 {
     drawing *d = &to->list[to->count++];
 
     d->folder = w->folder;
     file_name(d->name, w->s, plane->name, ".png");
-    d->look = (quick_look){.columns = (uint32_t)w->s->camera.columns,
-                           .rows = (uint32_t)w->s->camera.rows,
+    d->look = (quick_look){.columns = image_columns(of),
+                           .rows = image_rows(of),
                            .value = value,
                            .scene = w->s->name,
                            .time = w->time,
@@ -249,14 +250,14 @@ static status list_drawings(writing *w, drawings *to)
     for (size_t i = 0; i < w->plane_count; i++) {
         const render_plane *p = &w->planes[i];
         if (!w->values[i] || !is_pictured(w, i)) continue;
-        add_drawing(w, to, &p->plane, w->values[i]);
+        add_drawing(w, to, p->is_radiance ? w->cube : w->truth, &p->plane, w->values[i]);
         quick_look *look = &to->list[to->count - 1].look;
         look->colours = quick_look_colours_of(&p->plane);
         *look = labelled(w, p, *look);
     }
     for (uint32_t i = 0; w->sensor && i < w->s->band_count; i++)
         if (is_pictured(w, i))
-            add_drawing(w, to, image_plane_at(w->sensor, i), image_values(w->sensor, i));
+            add_drawing(w, to, w->sensor, image_plane_at(w->sensor, i), image_values(w->sensor, i));
 out:
     return rc;
 }

@@ -2,7 +2,6 @@
 
 #include "curve.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,12 +74,10 @@ out:
 static status write_table(const probe *p, output_folder *folder, const char *name)
 {
     status rc = STATUS_OK;
-    const output_file *place;
-    FILE *file = NULL;
+    output_file *place;
 
     TRY(output_folder_add(folder, name, &place));
-    file = fopen(output_file_temporary_path(place), "w");
-    NEED(file, STATUS_FILE, "%s: %s", output_file_path(place), strerror(errno));
+    FILE *file = output_file_stream(place);
     fputs("band,wavelength_um,weight_um", file);
     for (int k = 0; k < (int)SENSOR_TERMS; k++)
         fprintf(file, ",%s%s", terms[k].name, terms[k].unit);
@@ -92,10 +89,8 @@ static status write_table(const probe *p, output_folder *folder, const char *nam
             fprintf(file, ",%.9g", p->value[k * p->row_length + at->source]);
         fputc('\n', file);
     }
-    NEED(fflush(file) == 0 && !ferror(file), STATUS_FILE, "%s: writing failed: %s",
-         output_file_path(place), strerror(errno));
+    TRY(output_file_close(place));
 out:
-    if (file) fclose(file);
     return rc;
 }
 

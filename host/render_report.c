@@ -225,12 +225,11 @@ static void add_timings(json *to, const render_report *report)
 status render_report_write(output_folder *folder, const char *name, const render_report *report)
 {
     status rc = STATUS_OK;
-    const output_file *place = NULL;
+    output_file *place = NULL;
     json to = {.depth = 1, .empty = true};
 
     TRY(output_folder_add(folder, name, &place));
-    to.file = fopen(output_file_temporary_path(place), "w");
-    NEED(to.file, STATUS_FILE, "%s: %s", output_file_path(place), strerror(errno));
+    to.file = output_file_stream(place);
     fputc('{', to.file);
     add_scene(&to, report);
     add_bands(&to, report);
@@ -239,12 +238,8 @@ status render_report_write(output_folder *folder, const char *name, const render
     TRY(add_warnings(&to, report->warnings));
     add_timings(&to, report);
     fputs("\n}\n", to.file);
-    NEED(fflush(to.file) == 0 && !ferror(to.file), STATUS_FILE, "%s: writing failed: %s",
-         output_file_path(place), strerror(errno));
+    TRY(output_file_close(place));
 out:
-    if (to.file && fclose(to.file) != 0 && rc == STATUS_OK)
-        rc = status_set(STATUS_FILE, "%s: writing failed: %s", output_file_path(place),
-                        strerror(errno));
     return rc;
 }
 

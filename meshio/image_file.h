@@ -1,11 +1,13 @@
 /* Images written as OpenEXR (named float planes) and PNG (8 bit), and planes of an OpenEXR read
- * back. The same input gives the same bytes. The function says the format, not the extension of the
- * path, so that a caller can write under a temporary name. */
+ * back. The same input gives the same bytes. The caller opens the file to write, and closes it.
+ * OpenImageIO, which does the work, is part of a plug-in (plugin.h); where that cannot be loaded all
+ * functions fail. */
 #ifndef MESHIO_IMAGE_FILE_H
 #define MESHIO_IMAGE_FILE_H
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 /* A string stored in the image under a key. The key `DateTime` (`1987:06:24 15:00:00`) is the time of
  * capture; without it an OpenEXR holds an empty one and a PNG none. */
@@ -27,15 +29,20 @@ typedef struct image_channel {
 
 typedef enum image_compression { IMAGE_NONE, IMAGE_ZIP } image_compression;
 
-/* Writes the channels, float32 and exact, under their names (each once).
- * Returns 0, or non-zero with `path: ...`: cannot be created, disk full, no channels, a name given
- * twice. What was written then remains. */
-int image_file_write_exr(const char *path, const image_frame *frame, const image_channel *channel,
-                         size_t channel_count, image_compression compression, char *message,
-                         size_t message_size);
+/* Loads the plug-in, which takes a while: called beside other work, or before work whose result would
+ * otherwise be lost. Returns 0, or non-zero with `path: ...`. */
+int image_file_prepare(char *message, size_t message_size);
+
+/* Writes the channels, float32 and exact, under their names (each once), and flushes the file.
+ *   path   names the file in the message
+ * Returns 0, or non-zero with `path: ...`: disk full, no channels, a name given twice. What was
+ * written then remains. */
+int image_file_write_exr(FILE *file, const char *path, const image_frame *frame,
+                         const image_channel *channel, size_t channel_count,
+                         image_compression compression, char *message, size_t message_size);
 
 /* Writes 8-bit RGB, shape (height, width, 3). Fails as image_file_write_exr does. */
-int image_file_write_png(const char *path, const image_frame *frame, const uint8_t *rgb,
+int image_file_write_png(FILE *file, const char *path, const image_frame *frame, const uint8_t *rgb,
                          char *message, size_t message_size);
 
 /* Reads the channel called `name` of an OpenEXR file.

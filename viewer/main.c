@@ -2,16 +2,18 @@
 #include "bench.h"
 #include "clock.h"
 #include "control.h"
+#include "errand.h"
 #include "file_name.h"
 #include "number.h"
 #include "offscreen.h"
 #include "option_table.h"
+#include "picture.h"
 #include "program.h"
 #include "saving.h"
 #include "script.h"
 #include "window.h"
 
-static const char name[] = "radsig view";
+static const char command[] = "radsig view";
 
 static const char purpose[] =
     "Shows the radiance of a scene in a window: coarse while something moves, then exactly as\n"
@@ -58,11 +60,11 @@ static int read_arguments(arguments *a, int argc, char **argv)
         {"script", 0, "FILE", "do what the file says, then quit; - is the standard input",
          .text = &a->script},
         {"bench", 0, NULL, "measure how fast it is, then quit", .flag = &a->is_bench}};
-    const option_table table = {name, "SCENE", 1, 1, purpose, list, sizeof list / sizeof *list};
+    const option_table table = {command, "SCENE", 1, 1, purpose, list, sizeof list / sizeof *list};
     const int code = option_table_read(&table, argc, argv, NULL);
 
     if (code == OPTION_TABLE_DONE && a->script && a->is_bench)
-        return program_misuse(name, "--script and --bench exclude each other");
+        return program_misuse(command, "--script and --bench exclude each other");
     return code;
 }
 
@@ -97,24 +99,43 @@ out:
     return rc;
 }
 
+typedef struct opening {
+    const char *scene_path;
+    shared_scene *of;
+} opening;
+
+static status read_scene(void *self)
+{
+    opening *o = self;
+
+    return shared_scene_read(&o->of, o->scene_path, NULL, 0);
+}
+
+static status prepare_pictures(void *self)
+{
+    (void)self;
+    return picture_prepare();
+}
+
 static status run(const arguments *a, const char *scene_path, double start_s)
 {
     status rc = STATUS_OK;
-    shared_scene *of = NULL;
+    opening o = {.scene_path = scene_path};
+    const errand list[] = {{read_scene, &o}, {prepare_pictures, NULL}};
     surface *s = NULL;
     preview *p = NULL;
     int width, height;
 
-    TRY(shared_scene_read(&of, scene_path, NULL, 0));
-    program_warn(name);
-    const int columns = a->columns ? (int)a->columns : of->s->camera.columns;
-    const int rows = a->columns ? (int)a->rows : of->s->camera.rows;
+    TRY(errand_run(list, sizeof list / sizeof *list));
+    program_warn(command);
+    const int columns = a->columns ? (int)a->columns : o.of->s->camera.columns;
+    const int rows = a->columns ? (int)a->rows : o.of->s->camera.rows;
     preview_page_size(columns, rows, 1.0, &width, &height);
     if (a->offscreen)
         TRY(offscreen_open(&s, width, height));
     else
         TRY(window_open(&s, width, height));
-    TRY(preview_open(&p, s, of, columns, rows, a->plane, stdout));
+    TRY(preview_open(&p, s, o.of, columns, rows, a->plane, stdout));
     if (a->script)
         TRY(script_run(p, a->script));
     else if (a->is_bench)
@@ -125,7 +146,7 @@ static status run(const arguments *a, const char *scene_path, double start_s)
 out:
     preview_free(p);
     if (s) s->free(s);
-    shared_scene_drop(of);
+    shared_scene_drop(o.of);
     return rc;
 }
 
@@ -135,5 +156,5 @@ int main(int argc, char **argv)
     const double start_s = clock_now_s();
     const int code = read_arguments(&a, argc, argv);
 
-    return code == OPTION_TABLE_DONE ? program_end(name, run(&a, argv[1], start_s)) : code;
+    return code == OPTION_TABLE_DONE ? program_end(command, run(&a, argv[1], start_s)) : code;
 }

@@ -98,8 +98,8 @@ status saving_write_page(preview *p, const char *path)
 
     NEED(rgb, STATUS_MEMORY, "no memory for the page");
     TRY(canvas_read(p->c, rgb));
-    TRY(output_file_reserve(&file, path));
-    NEED(image_file_write_png(output_file_temporary_path(file), &about, rgb, message,
+    TRY(output_file_open(&file, path));
+    NEED(image_file_write_png(output_file_stream(file), path, &about, rgb, message,
                               sizeof message) == 0,
          STATUS_FILE, "%s", message);
     TRY(output_file_commit(file));

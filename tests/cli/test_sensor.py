@@ -1,12 +1,15 @@
 """[sensor]: the degraded radiance beside the clean one, against closed forms."""
 import pathlib
+import re
 import sys
 
 import numpy as np
 import pytest
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent))
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import envi  # noqa: E402
+from png import read_png  # noqa: E402
 
 FLAT = {"pixels": [256, 256]}
 BLACK = {"name": "lwir", "wavelength_um": [8.0, 14.0]}
@@ -125,6 +128,32 @@ def test_a_detector_takes_the_mean_of_its_pixels(program, tmp_path):
 
     expected = clean[:60, :60].reshape(12, 5, 12, 5).mean(axis=(1, 3))
     assert sensor == pytest.approx(expected, rel=1e-6)
+
+
+# The side of a picture's pixels, and where they begin: below the titles (quick_look.c).
+SIDE, TOP, LEFT = 256, 54, 12
+
+
+def test_a_picture_shows_the_detectors_not_the_camera_s_pixels(program, tmp_path):
+    # detectors of 2 x 2 end where the hot square of 16 x 16 pixels does: both show one picture,
+    # 64 pixels four times as large and 32 detectors eight times
+    spot = {**SPOT, "meshes": {"plane.obj": re.sub(r"v (-?)2 (-?)2", r"v \g<1>8 \g<2>8", HOT)}}
+    folder = rendered(program, tmp_path, {"detector_px": 2}, **spot)[2].folder
+
+    clean, sensor = (read_png(folder / f"plane_{name}.png")[TOP:TOP + SIDE, LEFT:LEFT + SIDE]
+                     for name in ("radiance_lwir", "sensor_lwir"))
+    square = (clean == 255).all(axis=2)
+    assert square[96:160, 96:160].all() and square.sum() == 64 * 64
+    assert (sensor == clean).all()
+
+
+@pytest.mark.parametrize("step, columns", [(8, 32), (64, 4)])
+def test_a_picture_of_few_detectors_is_as_large_as_any(program, tmp_path, step, columns):
+    _, sensor, got = rendered(program, tmp_path, {"detector_px": step})
+
+    assert sensor.shape == (columns, columns)
+    shown = read_png(got.folder / "plane_sensor_lwir.png")
+    assert shown.shape[0] == TOP + SIDE + 12 and (shown[TOP + SIDE, LEFT:LEFT + SIDE] == 110).all()
 
 
 def test_a_table_is_the_picture_of_a_point(program, tmp_path):

@@ -38,13 +38,11 @@ OIIO::ImageSpec spec_of(const char *path, const image_frame &frame, std::size_t 
 class image_output
 {
   public:
-    image_output(const char *path, const char *format, const OIIO::ImageSpec &spec)
-        : path_(path), file_(std::fopen(path, "wb"), std::fclose),
-          image_(OIIO::ImageOutput::create(format))
+    image_output(FILE *file, const char *path, const char *format, const OIIO::ImageSpec &spec)
+        : path_(path), file_(file), image_(OIIO::ImageOutput::create(format))
     {
-        if (!file_) throw failure(path_ + ": " + std::strerror(errno));
         if (!image_) throw failure(path_ + ": OpenImageIO writes no " + format);
-        proxy_ = std::make_unique<OIIO::Filesystem::IOFile>(file_.get(),
+        proxy_ = std::make_unique<OIIO::Filesystem::IOFile>(file_,
                                                             OIIO::Filesystem::IOProxy::Mode::Write);
         image_->set_ioproxy(proxy_.get());
         if (!image_->open(path_, spec)) fail();
@@ -58,7 +56,7 @@ class image_output
     void close()
     {
         if (!image_->close()) fail();
-        if (std::ferror(file_.get()) || std::fflush(file_.get())) fail();
+        if (std::ferror(file_) || std::fflush(file_)) fail();
     }
 
   private:
@@ -67,12 +65,12 @@ class image_output
         const int error = errno;
         const std::string text = image_->geterror();
 
-        if (std::ferror(file_.get())) throw failure(path_ + ": " + std::strerror(error));
+        if (std::ferror(file_)) throw failure(path_ + ": " + std::strerror(error));
         throw failure(path_ + ": " + (text.empty() ? "OpenImageIO failed" : text));
     }
 
     std::string path_;
-    std::unique_ptr<FILE, int (*)(FILE *)> file_;
+    FILE *file_;
     std::unique_ptr<OIIO::Filesystem::IOFile> proxy_;
     std::unique_ptr<OIIO::ImageOutput> image_;
 };
@@ -105,7 +103,7 @@ void name_channels(const char *path, OIIO::ImageSpec &spec, const image_channel 
 
 } // namespace
 
-extern "C" int image_file_write_exr(const char *path, const image_frame *frame,
+extern "C" int image_file_write_exr(FILE *file, const char *path, const image_frame *frame,
                                     const image_channel *channel, std::size_t channel_count,
                                     image_compression compression, char *message,
                                     std::size_t message_size)
@@ -115,7 +113,7 @@ try {
     name_channels(path, spec, channel);
     spec.attribute("compression", compression == IMAGE_ZIP ? "zip" : "none");
     if (!spec.find_attribute("DateTime")) spec.attribute("DateTime", ""); /* else it becomes now */
-    image_output output(path, "openexr", spec);
+    image_output output(file, path, "openexr", spec);
     write_rows(output, *frame, channel, channel_count);
     output.close();
     return 0;
@@ -123,14 +121,14 @@ try {
     return failure_report(path, message, message_size);
 }
 
-extern "C" int image_file_write_png(const char *path, const image_frame *frame,
+extern "C" int image_file_write_png(FILE *file, const char *path, const image_frame *frame,
                                     const std::uint8_t *rgb, char *message,
                                     std::size_t message_size)
 try {
     OIIO::ImageSpec spec = spec_of(path, *frame, 3, OIIO::TypeDesc::UINT8);
     /* Of zlib's levels a fast one: 8 % larger than by default, half the time. */
     spec.attribute("png:compressionLevel", 3);
-    image_output output(path, "png", spec);
+    image_output output(file, path, "png", spec);
 
     for (std::uint32_t y = 0; y < frame->height; y++)
         output.write_row(y, OIIO::TypeDesc::UINT8, rgb + std::size_t{y} * frame->width * 3);
