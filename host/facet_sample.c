@@ -3,11 +3,12 @@
 #include "polygon.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 enum { LEVEL_MOST = 3, POINTS_EACH = 2, POINTS_LEAST = 1 << 16 };
 
-/* Exponents of areas, of 0 too. */
+/* Exponents of areas; 0 and what is not finite have the least. */
 enum { EXPONENT_LEAST = -127, EXPONENTS = 256 };
 
 /* Weights of the corners of a triangle: of its middle, and of two points of it. */
@@ -95,7 +96,9 @@ void facet_sample(hit_record *out, const geometry *g, uint32_t facet, uint8_t le
 
 static int exponent_of(float area_m2)
 {
-    return area_m2 > 0.0f ? (int)fmax(ilogb((double)area_m2), EXPONENT_LEAST) : EXPONENT_LEAST;
+    const bool has_area = isfinite(area_m2) && area_m2 > 0.0f;
+
+    return has_area ? (int)fmax(ilogb((double)area_m2), EXPONENT_LEAST) : EXPONENT_LEAST;
 }
 
 /* Facets have four points from areas of 2^lowest on, and four times as many from four times as much. */

@@ -55,9 +55,10 @@ static void set_facet(geometry *g, uint32_t facet, const double (*position)[3])
 
     area_vector(g, facet, position, a);
     const double area = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-    const bool has_area = isfinite(area) && area > 0.0;
+    const float stored_m2 = (float)area;
+    const bool has_area = isfinite(stored_m2) && stored_m2 > 0.0f;
     for (int k = 0; k < 3; k++) g->normal[facet][k] = has_area ? (float)(a[k] / area) : 0.0f;
-    g->area_m2[facet] = has_area ? (float)area : 0.0f;
+    g->area_m2[facet] = has_area ? stored_m2 : 0.0f;
     g->slope_rad[facet] = has_area ? (float)acos(fmax(-1.0, fmin(1.0, a[2] / area))) : 0.0f;
     azimuth = has_area && (a[0] != 0.0 || a[1] != 0.0) ? atan2(a[0], a[1]) : 0.0;
     g->azimuth_rad[facet] = (float)(azimuth < 0.0 ? azimuth + 2.0 * M_PI : azimuth);

@@ -2,6 +2,7 @@
 
 #include "geometry_builder.h"
 #include "geometry_source.h"
+#include "mesh_file.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -55,7 +56,17 @@ static status append_vertices(geometry_builder *builder, const geometry_source *
     double(*placed)[3];
 
     TRY(geometry_builder_add_vertices(builder, count, &placed));
-    for (uint32_t i = 0; i < count; i++) place_vertex(&p, position[i], placed[i]);
+    for (uint32_t i = 0; i < count; i++) {
+        place_vertex(&p, position[i], placed[i]);
+        for (int k = 0; k < 3; k++)
+            NEED(!(isfinite(position[i][k]) && fabs(placed[i][k]) > MESH_FILE_LIMIT_M),
+                 STATUS_FORMAT,
+                 "%s: vertex %u comes to (%g, %g, %g) by scale, rotate_deg and translate_m, "
+                 "expected "
+                 "coordinates from -%g to %g m",
+                 instance->path, i, placed[i][0], placed[i][1], placed[i][2], MESH_FILE_LIMIT_M,
+                 MESH_FILE_LIMIT_M);
+    }
 out:
     return rc;
 }
@@ -96,6 +107,7 @@ status geometry_read(geometry **out, const geometry_instance *instances, size_t 
         rc = append_file(builder, &instances[i]);
         if (rc != STATUS_OK && failure == STATUS_OK) failure = rc;
         if (rc != STATUS_OK) status_keep(rc);
+        if (rc == STATUS_MEMORY) break;
     }
     TRY(failure);
     TRY(geometry_builder_finish(builder, out));

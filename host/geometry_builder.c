@@ -1,14 +1,22 @@
 #include "geometry_builder.h"
 
+#include "array.h"
 #include "facet_shape.h"
 #include "mesh_connect.h"
+#include "name_table.h"
 #include "polygon.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+/* Corners of all facets, and facets that know their neighbours by a signed number. */
+enum { VERTEX_LIMIT = 1 << 30, FACET_LIMIT = 1 << 28 };
+
 struct geometry_builder {
     geometry *g;
+    name_table *objects;   /* by the first object of their file */
+    name_table *parts;     /* by object */
+    name_table *materials; /* by code */
     double (*position)[3]; /* shape (vertex_capacity) */
     uint32_t vertex_capacity, facet_capacity, face_count;
     uint32_t file_object, file_part; /* the first object and part of the present file */
@@ -23,6 +31,9 @@ status geometry_builder_open(geometry_builder **out)
     NEED(builder, STATUS_MEMORY, "no memory for the geometry");
     builder->g = calloc(1, sizeof *builder->g);
     NEED(builder->g, STATUS_MEMORY, "no memory for the geometry");
+    TRY(name_table_open(&builder->objects));
+    TRY(name_table_open(&builder->parts));
+    TRY(name_table_open(&builder->materials));
     *out = builder;
     builder = NULL;
 out:
@@ -34,6 +45,9 @@ void geometry_builder_free(geometry_builder *builder)
 {
     if (!builder) return;
     geometry_free(builder->g);
+    name_table_free(builder->materials);
+    name_table_free(builder->parts);
+    name_table_free(builder->objects);
     free(builder->position);
     free(builder);
 }
@@ -48,24 +62,16 @@ uint32_t geometry_builder_face_count(const geometry_builder *builder)
     return builder->face_count;
 }
 
-/* Grows an array to `count` elements; false where there is no memory. */
-static int grow(void *array, size_t count, size_t element_size)
-{
-    void **place = array;
-    void *larger = realloc(*place, count * element_size);
-
-    if (larger) *place = larger;
-    return larger != NULL;
-}
-
 status geometry_builder_add_vertices(geometry_builder *builder, uint32_t count,
                                      double (**out_position)[3])
 {
     status rc = STATUS_OK;
     geometry *g = builder->g;
 
-    NEED(count < UINT32_MAX / 2 - g->vertex_count, STATUS_ARGUMENT, "too many vertices");
-    NEED(grow(&builder->position, g->vertex_count + count + 1, sizeof *builder->position),
+    NEED(count <= VERTEX_LIMIT - g->vertex_count, STATUS_ARGUMENT,
+         "more than %d vertices in the scene", VERTEX_LIMIT);
+    NEED(array_resize(&builder->position, (size_t)g->vertex_count + count + 1,
+                      sizeof *builder->position),
          STATUS_MEMORY, "no memory for %u vertices", g->vertex_count + count);
     *out_position = builder->position + g->vertex_count;
     g->vertex_count += count;
@@ -79,40 +85,30 @@ static status reserve_facets(geometry_builder *builder, uint32_t count)
 {
     status rc = STATUS_OK;
     geometry *g = builder->g;
-    uint32_t capacity = builder->facet_capacity ? builder->facet_capacity : 1024;
+    uint32_t room = builder->facet_capacity ? builder->facet_capacity : 1024;
 
+    NEED(count <= FACET_LIMIT - g->facet_count, STATUS_ARGUMENT, "more than %d facets in the scene",
+         FACET_LIMIT);
     if (g->facet_count + count <= builder->facet_capacity) return STATUS_OK;
-    while (capacity < g->facet_count + count) capacity *= 2;
-    NEED(grow(&g->corner, capacity, sizeof *g->corner) &&
-             grow(&g->facet_id, capacity, sizeof *g->facet_id) &&
-             grow(&g->part, capacity, sizeof *g->part) &&
-             grow(&g->material, capacity, sizeof *g->material) &&
-             grow(&g->thickness_m, capacity, sizeof *g->thickness_m) &&
-             grow(&g->power_w_m2, capacity, sizeof *g->power_w_m2) &&
-             grow(&g->stated_temperature_k, capacity, sizeof *g->stated_temperature_k),
-         STATUS_MEMORY, "no memory for %u facets", capacity);
-    builder->facet_capacity = capacity;
+    while (room < g->facet_count + count) room *= 2;
+    NEED(array_resize(&g->corner, room, sizeof *g->corner) &&
+             array_resize(&g->facet_id, room, sizeof *g->facet_id) &&
+             array_resize(&g->part, room, sizeof *g->part) &&
+             array_resize(&g->material, room, sizeof *g->material) &&
+             array_resize(&g->thickness_m, room, sizeof *g->thickness_m) &&
+             array_resize(&g->power_w_m2, room, sizeof *g->power_w_m2) &&
+             array_resize(&g->stated_temperature_k, room, sizeof *g->stated_temperature_k),
+         STATUS_MEMORY, "no memory for %u facets", room);
+    builder->facet_capacity = room;
 out:
     return rc;
-}
-
-/* Finds a name from the end, where the file's latest stand, back to index `first`. */
-static int find_name(char *const *names, uint32_t first, uint32_t count, const char *name,
-                     uint32_t *out)
-{
-    for (uint32_t i = count; i-- > first;) {
-        if (strcmp(names[i], name)) continue;
-        *out = i;
-        return 1;
-    }
-    return 0;
 }
 
 static status add_name(char ***names, uint32_t *count, const char *name)
 {
     status rc = STATUS_OK;
 
-    NEED(grow(names, *count + 1, sizeof **names), STATUS_MEMORY, "no memory for names");
+    NEED(array_add(names, *count, sizeof **names), STATUS_MEMORY, "no memory for names");
     (*names)[*count] = strdup(name);
     NEED((*names)[*count], STATUS_MEMORY, "no memory for names");
     ++*count;
@@ -130,19 +126,15 @@ static status find_part(geometry_builder *builder, const geometry_source_face *f
 {
     status rc = STATUS_OK;
     geometry *g = builder->g;
-    uint32_t object, part = g->part_count;
+    uint32_t object;
 
-    if (part > builder->file_part && is_part(g, builder->last_part, face)) return STATUS_OK;
-    while (part-- > builder->file_part) {
-        builder->last_part = part;
-        if (is_part(g, part, face)) return STATUS_OK;
-    }
-    if (!find_name(g->object_name, builder->file_object, g->object_count, face->object, &object)) {
-        object = g->object_count;
-        TRY(add_name(&g->object_name, &g->object_count, face->object));
-    }
-    builder->last_part = g->part_count;
-    NEED(grow(&g->part_object, g->part_count + 1, sizeof *g->part_object), STATUS_MEMORY,
+    if (g->part_count > builder->file_part && is_part(g, builder->last_part, face))
+        return STATUS_OK;
+    TRY(name_table_number(builder->objects, builder->file_object, face->object, &object));
+    if (object == g->object_count) TRY(add_name(&g->object_name, &g->object_count, face->object));
+    TRY(name_table_number(builder->parts, object, face->part, &builder->last_part));
+    if (builder->last_part < g->part_count) return STATUS_OK;
+    NEED(array_add(&g->part_object, g->part_count, sizeof *g->part_object), STATUS_MEMORY,
          "no memory for parts");
     g->part_object[g->part_count] = object;
     TRY(add_name(&g->part_name, &g->part_count, face->part));
@@ -164,16 +156,15 @@ static status find_material(geometry_builder *builder, const geometry_source_fac
 
     if (g->material_count && is_material(&g->materials[builder->last_material], face))
         return STATUS_OK;
-    for (uint32_t i = 0; i < g->material_count; i++) {
-        builder->last_material = i;
-        if (is_material(&g->materials[i], face)) return STATUS_OK;
-    }
-    NEED(grow(&g->materials, g->material_count + 1, sizeof *g->materials), STATUS_MEMORY,
+    TRY(name_table_number(builder->materials, (uint32_t)face->material_code, face->material,
+                          &builder->last_material));
+    if (builder->last_material < g->material_count) return STATUS_OK;
+    NEED(array_add(&g->materials, g->material_count, sizeof *g->materials), STATUS_MEMORY,
          "no memory for materials");
     added = &g->materials[g->material_count];
     *added = (geometry_material){strdup(face->material), face->material_code, g->facet_count, path};
     NEED(added->name, STATUS_MEMORY, "no memory for materials");
-    builder->last_material = g->material_count++;
+    g->material_count++;
 out:
     return rc;
 }

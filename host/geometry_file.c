@@ -1,5 +1,6 @@
 #include "geometry_file.h"
 
+#include "array.h"
 #include "constants.h"
 #include "number.h"
 #include "output_file.h"
@@ -48,18 +49,16 @@ static double dot(const double a[3], const double b[3])
 }
 
 /* Makes room for `more` items after `count`. */
-static status reserve(void **array, uint32_t *room, uint32_t count, uint32_t more, size_t item_size)
+static status reserve(void *array, uint32_t *room, uint32_t count, uint32_t more, size_t item_size)
 {
     status rc = STATUS_OK;
     uint32_t wanted = *room ? *room : 256;
-    void *larger;
 
     NEED(count <= FACET_LIMIT, STATUS_MEMORY, "more than %d facets or vertices", FACET_LIMIT);
     while (wanted < count + more) wanted *= 2;
     if (wanted == *room) return STATUS_OK;
-    larger = realloc(*array, wanted * item_size);
-    NEED(larger, STATUS_MEMORY, "%u facets or vertices", wanted);
-    *array = larger;
+    NEED(array_resize(array, wanted, item_size), STATUS_MEMORY,
+         "no memory for %u facets or vertices", wanted);
     *room = wanted;
 out:
     return rc;
@@ -91,7 +90,7 @@ static status read_object(reading *r)
     status rc = STATUS_OK;
     geometry_file *g = r->out;
 
-    TRY(reserve((void **)&g->objects, &r->objects, g->object_count, 1, sizeof *g->objects));
+    TRY(reserve(&g->objects, &r->objects, g->object_count, 1, sizeof *g->objects));
     geometry_object *object = &g->objects[g->object_count];
     TRY(record_file_text(r->file, &object->name, "the object's name"));
     TRY(read_id(r->file, object->id));
@@ -106,7 +105,7 @@ static status read_part(reading *r)
     geometry_file *g = r->out;
 
     if (g->object_count == 0) return record_file_reject(r->file, "OBJECT before the first PART");
-    TRY(reserve((void **)&g->parts, &r->parts, g->part_count, 1, sizeof *g->parts));
+    TRY(reserve(&g->parts, &r->parts, g->part_count, 1, sizeof *g->parts));
     geometry_part *part = &g->parts[g->part_count];
     part->object = g->object_count - 1;
     TRY(record_file_text(r->file, &part->name, "the part's name"));
@@ -167,7 +166,7 @@ static status read_vertices(geometry_facet *f, reading *r)
     TRY(record_file_count(r->file, 3, VERTEX_LIMIT, &count, "the number of vertices"));
     f->first_vertex = g->vertex_count;
     f->vertex_count = (uint32_t)count;
-    TRY(reserve((void **)&g->position_m, &r->vertices, g->vertex_count, f->vertex_count,
+    TRY(reserve(&g->position_m, &r->vertices, g->vertex_count, f->vertex_count,
                 3 * sizeof *g->position_m));
     for (long i = 0; i < count; i++, g->vertex_count++) {
         TRY(record_file_numbers(r->file, 3, point, "x, y and z of a vertex in m"));
@@ -247,7 +246,7 @@ static status read_facet(reading *r)
 
     if (g->part_count == 0 || g->parts[g->part_count - 1].object != g->object_count - 1)
         return record_file_reject(r->file, "PART before the first FACE of an object");
-    TRY(reserve((void **)&g->facets, &r->facets, g->facet_count, 1, sizeof *g->facets));
+    TRY(reserve(&g->facets, &r->facets, g->facet_count, 1, sizeof *g->facets));
     geometry_facet *f = &g->facets[g->facet_count];
     f->part = g->part_count - 1;
     TRY(read_facet_identity(f, r));

@@ -43,11 +43,15 @@ static void check_facets(scene_reader *reader)
     const scene *s = reader->s;
     const geometry *g = s->shape;
     const bool fixed = s->thermal == SCENE_THERMAL_FIXED;
-    bool told[256] = {false};
+    bool *told = calloc(g->material_count + 1, sizeof *told);
 
+    if (!told) {
+        scene_fail(reader, NULL, "no memory for %u materials", g->material_count);
+        return;
+    }
     for (uint32_t i = 0; i < g->facet_count; i++) {
         const uint32_t k = g->material[i];
-        if (k < 256 && told[k]) continue;
+        if (told[k]) continue;
         const scene_material *m = &s->materials[s->material_of[k]];
         if (g->stated_temperature_k[i] > 0.0f || m->medium != RECORD_NONE) continue;
         if (fixed ? m->temperature_k > 0.0 : g->thickness_m[i] > 0.0f || m->thickness_m > 0.0)
@@ -58,8 +62,9 @@ static void check_facets(scene_reader *reader)
                          : "%s: face %u of material %s has no thickness: state thickness_cm in its "
                            "[[geometry]] or [[material]]",
                    g->materials[k].path, g->facet_id[i], m->name);
-        if (k < 256) told[k] = true;
+        told[k] = true;
     }
+    free(told);
 }
 
 /* The ground plane goes on from the scene's own ground: the largest facet of its material that faces
@@ -291,6 +296,7 @@ void scene_free(scene *s)
         free(s->inputs[i].path);
     }
     free(s->inputs);
+    name_table_free(s->input_numbers);
     free(s->time_s);
     free(s->path);
     free(s->folder);

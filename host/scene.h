@@ -11,6 +11,7 @@
 #include "forcing.h"
 #include "geometry.h"
 #include "layered.h"
+#include "name_table.h"
 #include "power.h"
 #include "scattering.h"
 #include "site.h"
@@ -87,6 +88,7 @@ typedef struct scene {
     double hemisphere_zenith_step_deg, hemisphere_azimuth_step_deg;
     size_t input_count;
     scene_input *inputs;
+    name_table *input_numbers; /* by path: indices into inputs; NULL: there are none yet */
 } scene;
 
 /* Reads a scene.

@@ -1,5 +1,6 @@
 #include "scene_table.h"
 
+#include "array.h"
 #include "spelling.h"
 
 #include <assert.h>
@@ -213,51 +214,41 @@ void scene_table_close(scene_table *t)
     }
 }
 
-static scene_input *grow_inputs(scene *s)
+/* Adds an input unless an earlier one is the same file.
+ *   out_path   belongs to the scene */
+static status add_input(scene *s, const char *folder, const char *name, const char **out_path)
 {
-    scene_input *larger = realloc(s->inputs, (s->input_count + 1) * sizeof *larger);
+    status rc = STATUS_OK;
+    const size_t size = strlen(folder) + strlen(name) + 1;
+    scene_input input = {.name = strdup(name), .path = malloc(size)};
+    uint32_t number;
 
-    if (!larger) return NULL;
-    s->inputs = larger;
-    s->inputs[s->input_count] = (scene_input){0};
-    return &s->inputs[s->input_count++];
-}
-
-/* Drops the last input if an earlier one is the same file; returns the earlier one's path. */
-static const char *drop_if_known(scene *s)
-{
-    scene_input *last = &s->inputs[s->input_count - 1];
-
-    for (size_t i = 0; i + 1 < s->input_count; i++) {
-        if (strcmp(s->inputs[i].path, last->path)) continue;
-        free(last->name);
-        free(last->path);
-        s->input_count--;
-        return s->inputs[i].path;
+    NEED(input.name && input.path && array_add(&s->inputs, s->input_count, sizeof *s->inputs),
+         STATUS_MEMORY, "%s: no memory for its name", name);
+    snprintf(input.path, size, "%s%s", *name == '/' ? "" : folder, name);
+    if (!s->input_numbers) TRY(name_table_open(&s->input_numbers));
+    TRY(name_table_number(s->input_numbers, 0, input.path, &number));
+    if (number == s->input_count) {
+        s->inputs[s->input_count++] = input;
+        input = (scene_input){0};
     }
-    return NULL;
+    *out_path = s->inputs[number].path;
+out:
+    free(input.name);
+    free(input.path);
+    return rc;
 }
 
 const char *scene_add_input(scene_reader *reader, const toml_node *node, const char *folder,
                             const char *name)
 {
-    const size_t size = strlen(folder) + strlen(name) + 1;
-    scene_input *input = grow_inputs(reader->s);
+    const size_t count = reader->s->input_count;
+    const char *path = NULL;
 
-    if (input) input->name = strdup(name);
-    if (input) input->path = malloc(size);
-    if (!input || !input->name || !input->path) {
-        scene_fail(reader, node, "no memory for the name of a file");
-        return NULL;
-    }
-    snprintf(input->path, size, "%s%s", *name == '/' ? "" : folder, name);
-    const char *known = drop_if_known(reader->s);
-    if (known) return known;
-    if (access(input->path, R_OK) != 0) {
-        scene_fail(reader, node, "%s: %s", input->path, strerror(errno));
-        return NULL;
-    }
-    return input->path;
+    if (!scene_took(reader, add_input(reader->s, folder, name, &path))) return NULL;
+    if (reader->s->input_count == count || access(path, R_OK) == 0) return path;
+    scene_fail(reader, node, "%s: %s", path, strerror(errno));
+    return NULL;
 }
 
 bool scene_table_file(scene_table *t, const char *key, const char **out_path)

@@ -287,7 +287,7 @@ try {
     *out = result.release();
     return 0;
 } catch (...) {
-    return failure_report("", message, message_size);
+    return failure_report("the neighbours of all facets", message, message_size);
 }
 
 extern "C" void mesh_connect_free(mesh_connection *connection)

@@ -6,6 +6,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* No coordinate lies beyond, but for nan and inf: squares of areas must fit a float. */
+#define MESH_FILE_LIMIT_M 1e9
+
 /* A polygon soup: nothing is welded, split, turned or dropped, and face i is the file's face number
  * i counted from 0. Face i has the corners corner[first[i]] to corner[first[i + 1] - 1], at least
  * three, all of them below vertex_count. Coordinates are as in the file, in its unit; nan and inf
@@ -29,7 +32,8 @@ typedef struct mesh_file {
 
 /* Reads the mesh at `path`; its extension, in any case, says which format. Time is linear in the
  * size of the file. The caller releases *out with mesh_file_free; on failure *out is left as it
- * was.
+ * was. Refused are coordinates beyond MESH_FILE_LIMIT_M and a thickness that is neither 0, not
+ * stated, nor 1e-4 to 1e4 cm.
  * Returns 0, or non-zero with a message in `message`: `path:line: what stood there, what was
  * expected`, or `path: ...` where there is no line (binary files, no faces, no such file). */
 int mesh_file_read(mesh_file **out, const char *path, char *message, size_t message_size);

@@ -7,20 +7,11 @@
 #include "ply_header.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <memory>
 
 namespace
 {
-
-std::string shown(double number)
-{
-    char text[32];
-
-    std::snprintf(text, sizeof text, "%.10g", number);
-    return text;
-}
 
 /* The numbers behind the header, one after the other. */
 class ply_body
@@ -37,8 +28,8 @@ class ply_body
     {
         const double count = next(type);
 
-        if (!(count >= 0) || count != std::floor(count))
-            fail("a list of " + shown(count) + " numbers");
+        if (!(count >= 0 && count <= UINT32_MAX) || count != std::floor(count))
+            fail("a list of " + mesh_text_shown(count) + " numbers");
         return static_cast<std::size_t>(count);
     }
 };
@@ -154,6 +145,16 @@ void skip(ply_body &body, const ply_property &property)
         body.next(property.type);
 }
 
+double read_coordinate(const mesh_soup &soup, ply_body &body, const ply_property &property)
+{
+    const double coordinate = body.next(property.type);
+
+    if (mesh_soup_is_beyond(coordinate))
+        body.fail("vertex " + std::to_string(soup.position.size()) + ": " + property.name + " is " +
+                  mesh_text_shown(coordinate) + ", expected " + mesh_soup_expected);
+    return coordinate;
+}
+
 void read_vertex(mesh_soup &soup, ply_body &body, const ply_element &element)
 {
     std::array<double, 3> point{};
@@ -161,7 +162,7 @@ void read_vertex(mesh_soup &soup, ply_body &body, const ply_element &element)
     for (const ply_property &property : element.properties) {
         const std::string &name = property.name;
         if (!property.is_list && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z')
-            point[static_cast<std::size_t>(name[0] - 'x')] = body.next(property.type);
+            point[static_cast<std::size_t>(name[0] - 'x')] = read_coordinate(soup, body, property);
         else
             skip(body, property);
     }
@@ -178,8 +179,9 @@ void read_corners(mesh_soup &soup, ply_body &body, const ply_property &property,
         const double index = body.next(property.type);
         if (!(index >= 0) || index >= static_cast<double>(vertex_count) ||
             index != std::floor(index))
-            body.fail("face " + std::to_string(soup.face_count()) + ": vertex " + shown(index) +
-                      ", expected one of 0 to " + std::to_string(vertex_count - 1));
+            body.fail("face " + std::to_string(soup.face_count()) + ": vertex " +
+                      mesh_text_shown(index) + ", expected one of 0 to " +
+                      std::to_string(vertex_count - 1));
         soup.corner.push_back(static_cast<std::uint32_t>(index));
     }
     soup.end_face();
@@ -190,8 +192,18 @@ void read_material(mesh_soup &soup, ply_body &body, const ply_property &property
     const double number = body.next(property.type);
 
     if (!(std::fabs(number) < 1e9) || number != std::floor(number))
-        body.fail("material " + shown(number) + ", expected an integer");
+        body.fail("material " + mesh_text_shown(number) + ", expected an integer");
     soup.material.push_back(soup.materials.number_of(std::to_string(static_cast<long>(number))));
+}
+
+void read_thickness(mesh_soup &soup, ply_body &body, const ply_property &property)
+{
+    const double thickness_cm = body.next(property.type);
+
+    if (thickness_cm != 0 && !(thickness_cm >= 1e-4 && thickness_cm <= 1e4))
+        body.fail("face " + std::to_string(soup.thickness_cm.size()) + ": thickness " +
+                  mesh_text_shown(thickness_cm) + ", expected 0.0001 to 10000 cm or 0: not stated");
+    soup.thickness_cm.push_back(static_cast<float>(thickness_cm));
 }
 
 bool is_corners(const ply_property &property)
@@ -209,7 +221,7 @@ void read_face(mesh_soup &soup, ply_body &body, const ply_element &element,
         else if (!property.is_list && property.name == "material")
             read_material(soup, body, property);
         else if (!property.is_list && property.name == "thickness")
-            soup.thickness_cm.push_back(static_cast<float>(body.next(property.type)));
+            read_thickness(soup, body, property);
         else
             skip(body, property);
     }

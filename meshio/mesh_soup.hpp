@@ -3,7 +3,12 @@
 #ifndef MESHIO_MESH_SOUP_HPP
 #define MESHIO_MESH_SOUP_HPP
 
+extern "C" {
+#include "mesh_file.h"
+}
+
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -39,6 +44,13 @@ struct mesh_soup {
         return first.size() - 1;
     }
 };
+
+/* Whether a coordinate is to be refused, and what to expect instead. */
+inline bool mesh_soup_is_beyond(double coordinate)
+{
+    return std::isfinite(coordinate) && std::fabs(coordinate) > MESH_FILE_LIMIT_M;
+}
+constexpr char mesh_soup_expected[] = "a coordinate from -1e9 to 1e9 m";
 
 /* The names of what a file does not name. */
 constexpr char mesh_soup_part[] = "part", mesh_soup_material[] = "";

@@ -20,7 +20,8 @@ std::uint32_t binary_count(std::string_view text)
     return count;
 }
 
-void read_binary(mesh_soup &soup, std::string_view text, std::uint32_t facet_count)
+void read_binary(mesh_soup &soup, const std::string &path, std::string_view text,
+                 std::uint32_t facet_count)
 {
     for (std::uint32_t facet = 0; facet < facet_count; facet++) {
         const char *vertex =
@@ -28,6 +29,11 @@ void read_binary(mesh_soup &soup, std::string_view text, std::uint32_t facet_cou
         for (int i = 0; i < 3; i++, vertex += 12) {
             float x[3];
             std::memcpy(x, vertex, sizeof x);
+            for (const float coordinate : x)
+                if (mesh_soup_is_beyond(static_cast<double>(coordinate)))
+                    throw failure(path + ": facet " + std::to_string(facet) + ": found " +
+                                  mesh_text_shown(static_cast<double>(coordinate)) + ", expected " +
+                                  mesh_soup_expected);
             soup.corner.push_back(static_cast<std::uint32_t>(soup.position.size()));
             soup.position.push_back({x[0], x[1], x[2]});
         }
@@ -97,7 +103,7 @@ void mesh_stl_read(mesh_soup &soup, const std::string &path, std::string_view te
     const std::uint32_t facet_count = has_header ? binary_count(text) : 0;
 
     if (has_header && text.size() == header_size + facet_count * facet_size)
-        return read_binary(soup, text, facet_count);
+        return read_binary(soup, path, text, facet_count);
     if (text.find('\0') != text.npos && has_header)
         throw failure(path + ": " + std::to_string(text.size()) + " bytes, expected " +
                       std::to_string(header_size + facet_count * facet_size) + " for the " +

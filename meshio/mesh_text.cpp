@@ -1,8 +1,10 @@
 #include "mesh_text.hpp"
 
 #include "failure.hpp"
+#include "mesh_soup.hpp"
 
 #include <charconv>
+#include <cstdio>
 
 namespace
 {
@@ -45,6 +47,14 @@ bool mesh_text_is(std::string_view word, std::string_view keyword)
         if (c != keyword[i]) return false;
     }
     return true;
+}
+
+std::string mesh_text_shown(double number)
+{
+    char text[32];
+
+    std::snprintf(text, sizeof text, "%.10g", number);
+    return text;
 }
 
 mesh_text::mesh_text(std::string path, std::string_view text, std::size_t begin,
@@ -96,5 +106,9 @@ long long mesh_text::integer(std::string_view word) const
 
 void mesh_text::point(std::string_view rest, double out[3]) const
 {
-    for (int axis = 0; axis < 3; axis++) out[axis] = number(mesh_text_word(rest));
+    for (int axis = 0; axis < 3; axis++) {
+        const std::string_view word = mesh_text_word(rest);
+        out[axis] = number(word);
+        if (mesh_soup_is_beyond(out[axis])) fail(word, mesh_soup_expected);
+    }
 }

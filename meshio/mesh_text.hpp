@@ -12,6 +12,9 @@ std::string_view mesh_text_word(std::string_view &rest);
 /* True where `word` is `keyword`, which is in lower case, in any case. */
 bool mesh_text_is(std::string_view word, std::string_view keyword);
 
+/* A number in messages, ten digits at most. */
+std::string mesh_text_shown(double number);
+
 class mesh_text
 {
   public:
@@ -44,7 +47,7 @@ class mesh_text
     double number(std::string_view word) const;
     long long integer(std::string_view word) const;
 
-    /* The first three numbers of `rest`, taken off its front. */
+    /* The first three numbers of `rest`, taken off its front: coordinates of a mesh. */
     void point(std::string_view rest, double out[3]) const;
 
   private:

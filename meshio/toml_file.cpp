@@ -3,6 +3,7 @@ extern "C" {
 }
 #include "failure.hpp"
 #include "file_text.hpp"
+#include "toml_depth.hpp"
 #include "toml_setting.hpp"
 #include "toml_tree.hpp"
 
@@ -17,6 +18,7 @@ toml::table document_of(const std::string &path)
 {
     const std::string text = file_text_load(path);
 
+    toml_depth_check(text, path);
     try {
         return toml::parse(text, path);
     } catch (const toml::parse_error &e) {

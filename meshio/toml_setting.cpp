@@ -1,6 +1,7 @@
 #include "toml_setting.hpp"
 
 #include "failure.hpp"
+#include "toml_depth.hpp"
 
 #include <charconv>
 
@@ -16,6 +17,7 @@ namespace
  * bracketed value. */
 toml::table parsed(const std::string &setting, const std::string &value)
 {
+    toml_depth_check(value, "--set");
     try {
         toml::table table = toml::parse("x = " + value);
         if (table.size() == 1) return table;
@@ -73,6 +75,7 @@ void toml_setting_apply(toml::table &root, const std::string &setting)
     std::size_t begin = 0;
 
     if (equals == setting.npos) fail(setting, "expected table.key=value");
+    toml_depth_check(setting.substr(0, equals), "--set");
     toml::table value = parsed(setting, setting.substr(equals + 1));
     for (;;) {
         const std::size_t end = std::min(setting.find('.', begin), equals);

@@ -1,5 +1,8 @@
 #include "toml_tree.hpp"
 
+#include "failure.hpp"
+#include "toml_depth.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <sstream>
@@ -113,6 +116,10 @@ std::unique_ptr<toml_node> child_of(const toml_node &parent, const toml::node &v
     node->name = parent.name.empty() ? name : parent.name + "." + name;
     node->text = cut(text_of(value));
     place(*node, value, key);
+    node->depth = parent.depth + 1;
+    if (node->depth > toml_depth_nodes)
+        throw failure(node->where + ": tables and arrays more than " +
+                      std::to_string(toml_depth_nodes) + " deep");
     if (const toml::table *table = value.as_table())
         add_table(*node, *table);
     else if (const toml::array *array = value.as_array())

@@ -14,7 +14,7 @@ extern "C" {
 
 struct toml_node {
     toml_kind kind = TOML_TABLE;
-    int line = 0;
+    int line = 0, depth = 0;
     std::string where, key, name, text;
     std::vector<std::unique_ptr<toml_node>> child;
 

@@ -163,6 +163,18 @@ def test_a_material_of_the_mesh_that_nobody_states_is_named(program, folder):
                    'bad.obj: material "velvet"')
 
 
+@pytest.mark.parametrize("count", [3, 300])
+def test_a_missing_thickness_is_told_once_a_material(program, folder, count):
+    faces = [f"usemtl m{i}\nf 1 2 3\nf 2 3 4\n" for i in range(count)]
+    (folder / "many.obj").write_text(PLANE + "".join(faces))
+    materials = [f'[[material]]\nname = "m{i}"\nemissivity = 0.9\n' for i in range(count)]
+    text = GOOD.replace("plane.obj", "many.obj") + "".join(materials)
+
+    done = check(program, folder, text)
+
+    assert done.returncode == 1 and done.stderr.count("has no temperature") == count
+
+
 @pytest.mark.parametrize("face, words", [("f 1 2 3 5", "bad.obj:6: "), ("f 1 2 x", "bad.obj:6: "),
                                          ("f 1 2", "bad.obj:6: "), ("f 0 1 2", "bad.obj:6: ")])
 def test_a_bad_face_is_reported_at_its_line(program, folder, face, words):

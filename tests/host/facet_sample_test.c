@@ -97,6 +97,16 @@ static void few_facets_have_many_points(void **state)
     for (int i = 0; i < 3; i++) assert_int_equal(level[i], 3);
 }
 
+static void an_area_that_is_not_finite_has_the_fewest_points(void **state)
+{
+    static const float area[4] = {INFINITY, NAN, 0.0f, 1.0f};
+    uint8_t level[4];
+
+    (void)state;
+    facet_sample_levels(level, area, 4);
+    for (int i = 0; i < 3; i++) assert_true(level[i] <= level[3]);
+}
+
 /* Areas from 1 to 100,000, many small ones. */
 static void of_many_facets_large_ones_have_more(void **state)
 {
@@ -123,6 +133,7 @@ int main(void)
         cmocka_unit_test(half_of_the_points_lie_in_each_half_of_a_quad),
         cmocka_unit_test(a_quad_has_one_point_near_its_middle),
         cmocka_unit_test(few_facets_have_many_points),
+        cmocka_unit_test(an_area_that_is_not_finite_has_the_fewest_points),
         cmocka_unit_test(of_many_facets_large_ones_have_more),
     };
 

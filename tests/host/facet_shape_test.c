@@ -155,6 +155,21 @@ static void no_vertices_make_an_empty_box(void **state)
     geometry_free(g);
 }
 
+/* The least float above 0 is 1.4e-45. */
+static void an_area_that_a_float_cannot_hold_is_none(void **state)
+{
+    const double least[3][3] = {{0, 0, 0}, {1e-23, 0, 0}, {0, 1e-23, 0}};
+    const double largest[3][3] = {{0, 0, 0}, {1e20, 0, 0}, {0, 1e20, 0}};
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        geometry *g = triangle(i ? largest : least);
+        assert_true(g->area_m2[0] == 0.0f);
+        assert_true(g->normal[0][2] == 0.0f);
+        geometry_free(g);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -167,6 +182,7 @@ int main(void)
         cmocka_unit_test(a_facet_without_area_has_no_normal),
         cmocka_unit_test(a_coordinate_that_is_no_number_spoils_its_facet_alone),
         cmocka_unit_test(no_vertices_make_an_empty_box),
+        cmocka_unit_test(an_area_that_a_float_cannot_hold_is_none),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

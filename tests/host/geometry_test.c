@@ -3,6 +3,8 @@
 
 #include "geometry.h"
 
+#include <time.h>
+
 #define DEGREE (M_PI / 180.0)
 
 /* The box 0..1 x 0..2 x 0..3, six quads that run counterclockwise seen from outside: bottom, top,
@@ -232,6 +234,70 @@ static void an_instance_states_what_its_file_does_not(void **state)
     geometry_free(g);
 }
 
+static void a_vertex_that_is_moved_beyond_1e9_m_is_an_error(void **state)
+{
+    const char *path = write_file("far.obj", "v 0 0 0\nv 1e6 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+    const geometry_instance beyond[] = {
+        {.path = path, .scale = 1e4},
+        {.path = path, .scale = 1e3, .translate_m = {1.0, 0.0, 0.0}},
+        {.path = path, .scale = 1e4, .rotate_deg = {0.0, 0.0, 30.0}}};
+
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        geometry *g = NULL;
+        assert_int_equal(geometry_read(&g, &beyond[i], 1), STATUS_FORMAT);
+        assert_null(g);
+        assert_non_null(strstr(status_message(), "far.obj: vertex 1 comes to ("));
+        status_clear();
+    }
+}
+
+static char *many_parts(uint32_t count, const char *keyword)
+{
+    char *text = malloc(64 + 32 * (size_t)count), *end = text;
+
+    assert_non_null(text);
+    end += sprintf(end, "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\n");
+    for (uint32_t i = 0; i < count; i++) end += sprintf(end, "%s n%u\nf 1 2 3\n", keyword, i);
+    return text;
+}
+
+/* Looking at one name after the other took 50,000 objects 11 s. */
+static void a_hundred_thousand_names_are_read_within_seconds(void **state)
+{
+    enum { NAMES = 100000 };
+    static const char *const keyword[] = {"o", "g", "usemtl"};
+
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        char *text = many_parts(NAMES, keyword[i]);
+        const clock_t begin = clock();
+        geometry *g = read_one(text, (geometry_instance){0});
+        assert_true(clock() - begin < 5 * CLOCKS_PER_SEC);
+        assert_int_equal(g->object_count, i == 0 ? NAMES : 1);
+        assert_int_equal(g->part_count, i == 2 ? 1 : NAMES);
+        assert_int_equal(g->material_count, i == 2 ? NAMES : 1);
+        assert_string_equal(g->part_name[g->part[NAMES - 1]], i == 1 ? "n99999" : "part");
+        geometry_free(g);
+        free(text);
+    }
+}
+
+static void a_name_that_comes_again_is_the_same_part(void **state)
+{
+    (void)state;
+    geometry *g = read_one("v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\no one\ng p\nf 1 2 3\n"
+                           "o two\ng p\nf 1 2 3\no one\ng p\nusemtl b\nf 1 2 3\n",
+                           (geometry_instance){0});
+
+    assert_int_equal(g->object_count, 2);
+    assert_int_equal(g->part_count, 2);
+    assert_int_equal(g->part[2], g->part[0]);
+    assert_int_not_equal(g->part[1], g->part[0]);
+    assert_int_equal(g->material[2], 1);
+    geometry_free(g);
+}
+
 static void every_bad_file_is_told(void **state)
 {
     char paths[3][256];
@@ -268,6 +334,9 @@ int main(void)
         cmocka_unit_test(facets_that_no_ray_meets_are_counted),
         cmocka_unit_test(a_face_without_material_is_an_error),
         cmocka_unit_test(an_instance_states_what_its_file_does_not),
+        cmocka_unit_test(a_vertex_that_is_moved_beyond_1e9_m_is_an_error),
+        cmocka_unit_test(a_hundred_thousand_names_are_read_within_seconds),
+        cmocka_unit_test(a_name_that_comes_again_is_the_same_part),
         cmocka_unit_test(every_bad_file_is_told),
     };
 

@@ -295,6 +295,88 @@ static void a_bad_off_is_refused_with_its_line(void **state)
     assert_refused("d.off", "4OFF\n", ":1: \"4OFF\", expected OFF with three coordinates");
 }
 
+#define TEXT_PLY(X)                                                                                \
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"                \
+    "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 "   \
+    "0\n" X " 0 0\n0 1 0\n3 0 1 2\n"
+
+static void a_coordinate_beyond_1e9_m_is_refused_by_every_reader(void **state)
+{
+#define EXPECTED ", expected a coordinate from -1e9 to 1e9 m"
+    char bytes[256] = "";
+    const float far[3] = {0.0f, -0x1p67f, 0.0f};
+    size_t size;
+    mesh_file *mesh = NULL;
+    (void)state;
+
+    assert_refused("far.obj", "v 0 0 0\nv 1e20 0 0\nv 0 1 0\nf 1 2 3\n", ":2: \"1e20\"" EXPECTED);
+    assert_refused("far.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 -1000000001 0\n3 0 1 2\n",
+                   ":4: \"-1000000001\"" EXPECTED);
+    assert_refused("far.stl", "solid\n" FACET("0 0 0", "1 0 2e9", "0 1 0") "endsolid\n",
+                   ":5: \"2e9\"" EXPECTED);
+    assert_refused("far.ply", TEXT_PLY("1e300"), ":11: vertex 1: x is 1e+300" EXPECTED);
+
+    bytes[80] = 1;
+    memcpy(bytes + 84 + 12 + 12, far, sizeof far);
+    write_file("far.stl", bytes, 134);
+    assert_int_not_equal(mesh_file_read(&mesh, path, message, sizeof message), 0);
+    assert_non_null(strstr(message, "far.stl: facet 0: found -1.475739526e+20" EXPECTED));
+
+    size = big_endian_ply(bytes);
+    bytes[strstr(bytes, "end_header\n") - bytes + 11] = 0x7f; /* the highest byte of a float's x */
+    write_file("far.ply", bytes, size);
+    assert_int_not_equal(mesh_file_read(&mesh, path, message, sizeof message), 0);
+    assert_non_null(strstr(message, "far.ply: vertex 0: x is 1.701411835e+38" EXPECTED));
+#undef EXPECTED
+}
+
+static void a_coordinate_of_1e9_m_is_read(void **state)
+{
+    mesh_file *mesh = read_text("edge.obj", "v 0 0 0\nv 1e9 0 0\nv 0 -1e9 0\nf 1 2 3\n");
+    (void)state;
+
+    assert_true(mesh->position[1][0] == 1e9 && mesh->position[2][1] == -1e9);
+    mesh_file_free(mesh);
+}
+
+static void a_ply_list_of_more_numbers_than_fit_is_refused(void **state)
+{
+#define LIST(COUNT)                                                                                \
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"                \
+    "property float z\nelement face 1\nproperty list double int vertex_indices\nend_header\n"      \
+    "0 0 0\n1 0 0\n0 1 0\n" COUNT " 0 1 2\n"
+    (void)state;
+    assert_refused("a.ply", LIST("1e300"), ":13: a list of 1e+300 numbers");
+    assert_refused("b.ply", LIST("inf"), ":13: a list of inf numbers");
+    assert_refused("c.ply", LIST("nan"), ":13: a list of nan numbers");
+    assert_refused("d.ply", LIST("-3"), ":13: a list of -3 numbers");
+#undef LIST
+}
+
+static void a_ply_thickness_is_not_stated_or_1e_4_to_1e4_cm(void **state)
+{
+#define THICK(CM)                                                                                  \
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"                \
+    "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"                   \
+    "property float thickness\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 " CM "\n"
+#define EXPECTED ", expected 0.0001 to 10000 cm or 0: not stated"
+    static const char *const good[] = {"0", "0.0001", "2.5", "10000"};
+    (void)state;
+
+    for (int i = 0; i < 4; i++) {
+        const char *text[] = {THICK("0"), THICK("0.0001"), THICK("2.5"), THICK("10000")};
+        mesh_file *mesh = read_text("good.ply", text[i]);
+        assert_true(mesh->thickness_cm[0] == strtof(good[i], NULL));
+        mesh_file_free(mesh);
+    }
+    assert_refused("a.ply", THICK("-1"), ":14: face 0: thickness -1" EXPECTED);
+    assert_refused("b.ply", THICK("nan"), ":14: face 0: thickness nan" EXPECTED);
+    assert_refused("c.ply", THICK("1e-5"), ":14: face 0: thickness 1e-05" EXPECTED);
+    assert_refused("d.ply", THICK("inf"), ":14: face 0: thickness inf" EXPECTED);
+#undef EXPECTED
+#undef THICK
+}
+
 static void what_is_no_mesh_file_is_refused(void **state)
 {
     mesh_file *mesh = NULL;
@@ -385,6 +467,10 @@ int main(void)
         cmocka_unit_test(a_bad_stl_is_refused),
         cmocka_unit_test(an_off_file_may_hold_comments_and_colours),
         cmocka_unit_test(a_bad_off_is_refused_with_its_line),
+        cmocka_unit_test(a_coordinate_beyond_1e9_m_is_refused_by_every_reader),
+        cmocka_unit_test(a_coordinate_of_1e9_m_is_read),
+        cmocka_unit_test(a_ply_list_of_more_numbers_than_fit_is_refused),
+        cmocka_unit_test(a_ply_thickness_is_not_stated_or_1e_4_to_1e4_cm),
         cmocka_unit_test(what_is_no_mesh_file_is_refused),
         cmocka_unit_test(a_message_is_cut_to_the_buffer),
         cmocka_unit_test(real_files_have_the_faces_that_they_declare),

@@ -224,6 +224,57 @@ static void a_document_that_is_not_toml_names_its_line(void **state)
     assert_refused("[site\n", NULL, ":1: ");
 }
 
+/* `count` times `part`, between `before` and `after`. */
+static const char *repeated(const char *before, const char *part, int count, const char *after)
+{
+    static char text[1 << 18];
+    char *end = text + sprintf(text, "%s", before);
+
+    for (int i = 0; i < count; i++) end += sprintf(end, "%s", part);
+    sprintf(end, "%s", after);
+    return text;
+}
+
+static void keys_of_many_parts_are_refused_with_their_line(void **state)
+{
+    const char *const hidden = "x = { s = \"\"\"a\"\"\"\", a"; /* a string that ends in a quote */
+    (void)state;
+
+    assert_refused(repeated("y = 1\n[a", ".a", 30000, "]\n"), NULL, ":2: a key of more than 16");
+    assert_refused(repeated("a", " . \"a\"", 30000, " = 1\n"), NULL, ":1: a key of more than 16");
+    assert_refused(repeated("s = \"\"\"\n\\\"\"\"\"\n[[a", ".a", 30000, "]]\n"), NULL,
+                   ":3: a key of more than 16");
+    assert_refused(repeated(hidden, ".a", 30000, " = 1 }\n"), NULL, ":1: a key of more than 16");
+    assert_refused(repeated("x = { a", ".a", 30000, ""), NULL, ":1: a key of more than 16");
+    assert_refused(scene, repeated("a", ".a", 30000, "=1"), "--set:1: a key of more than 16");
+    assert_refused(scene, repeated("x={ a", ".a", 30000, " = 1 }"), "--set:1: a key of more");
+}
+
+static void values_that_lie_too_deep_are_refused(void **state)
+{
+    char text[1024];
+    (void)state;
+
+    strcpy(text, repeated("y = 1\nx = ", "[", 64, "1"));
+    assert_refused(repeated(text, "]", 64, "\n"), NULL, ":2: tables and arrays more than 64 deep");
+    strcpy(text, repeated("x = ", "{ a.a.a = ", 30, "1"));
+    assert_refused(repeated(text, " }", 30, "\n"), NULL, ":1: tables and arrays more than 64 deep");
+    strcpy(text, repeated("x = ", "[", 60, "1"));
+    toml_file_free(read_set(repeated(text, "]", 60, "\n"), NULL, 0));
+}
+
+static void dots_in_values_and_comments_are_no_parts_of_keys(void **state)
+{
+    (void)state;
+    toml_file_free(read_set(
+        "# a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a\n"
+        "s = '../../../../../../../../../../..'\n"
+        "t = \"a.a.a.a.a.a.a.a.a.a.\\\"a.a.a.a.a.a.a.a.a\"\n"
+        "n = [1.0e1, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4]\n"
+        "a.a.a.a.a.a.a.a.a.a.a.a.a.a.a.a = 1\n",
+        NULL, 0));
+}
+
 static void a_file_that_is_not_there_is_refused(void **state)
 {
     toml_file *file = NULL;
@@ -326,6 +377,9 @@ int main(void)
         cmocka_unit_test(a_value_of_another_kind_is_refused_with_its_line),
         cmocka_unit_test(a_time_without_offset_is_refused),
         cmocka_unit_test(a_document_that_is_not_toml_names_its_line),
+        cmocka_unit_test(keys_of_many_parts_are_refused_with_their_line),
+        cmocka_unit_test(values_that_lie_too_deep_are_refused),
+        cmocka_unit_test(dots_in_values_and_comments_are_no_parts_of_keys),
         cmocka_unit_test(a_file_that_is_not_there_is_refused),
         cmocka_unit_test(a_setting_replaces_a_value_and_reports_no_line),
         cmocka_unit_test(a_setting_reaches_into_arrays_and_makes_tables),
