@@ -9,7 +9,7 @@ FILES = ["radsig", "radsig-view", "plugins/image.so"]
 @pytest.fixture
 def look(program):
     """Runs readelf (binutils) over a built file."""
-    folder = program.RADSIG.parent
+    folder = program.path.parent
     if "san-" in folder.name:
         pytest.skip("sanitizers replace the checks of the compiler")
 
