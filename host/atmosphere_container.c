@@ -2,6 +2,7 @@
 
 #include "../kernels/records.h"
 #include "input_file.h"
+#include "interrupt.h"
 #include "output_file.h"
 
 #include <errno.h>
@@ -171,6 +172,7 @@ static status read_block(const block *b, int number, FILE *file, const char *pat
     float *values = NULL;
 
     if (!b->size) goto out;
+    TRY(interrupt_check());
     values = malloc(b->size * sizeof *values);
     *b->at = malloc(b->size * sizeof **b->at);
     NEED(values && *b->at, STATUS_MEMORY, "%s: no memory to read it", path);

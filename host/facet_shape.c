@@ -1,5 +1,7 @@
 #include "facet_shape.h"
 
+#include "interrupt.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -78,7 +80,10 @@ status facet_shape_set(geometry *g, const double (*position)[3])
     set_origin(g, position);
     for (uint32_t i = 0; i < g->vertex_count; i++)
         for (int k = 0; k < 3; k++) g->position[i][k] = (float)(position[i][k] - g->origin_m[k]);
-    for (uint32_t i = 0; i < g->facet_count; i++) set_facet(g, i, position);
+    for (uint32_t i = 0; i < g->facet_count; i++) {
+        TRY(interrupt_check());
+        set_facet(g, i, position);
+    }
 out:
     return rc;
 }

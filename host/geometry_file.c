@@ -2,6 +2,7 @@
 
 #include "array.h"
 #include "constants.h"
+#include "interrupt.h"
 #include "number.h"
 #include "output_file.h"
 
@@ -287,8 +288,10 @@ status geometry_file_read(geometry_file **out, const char *path)
     NEED(r.out, STATUS_MEMORY, "geometry");
     TRY(record_file_open(&r.file, path));
     r.out->source = r.file;
-    do TRY(read_block(&r));
-    while (!record_file_at_end(r.file));
+    do {
+        TRY(interrupt_check());
+        TRY(read_block(&r));
+    } while (!record_file_at_end(r.file));
     NEED(r.out->facet_count > 0, STATUS_FORMAT, "%s:%d: the file ends, expected FACE", path,
          record_file_line(r.file) + 1);
     if (r.off_count)

@@ -237,8 +237,11 @@ static radiometry_record frame_of(const interreflection *f, const radiometry_rec
 static status write_light(const interreflection *f, const radiometry_record *frame,
                           hit_record_buffer hit, float_buffer arriving)
 {
+    device_shape shape = shape1(frame->pixel_count);
+
+    shape.item_s = 1e-8 * frame->sample_count;
     return interreflection_run(
-        device_of(f), shape1(frame->pixel_count),
+        device_of(f), shape,
         &(interreflection_args){.frame = *frame,
                                 .hit = hit,
                                 .facets = f->from.tables.facet,
