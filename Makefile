@@ -29,13 +29,13 @@ HARDEN = -fPIE $(if $(SAN),,-D_FORTIFY_SOURCE=2 -fstack-protector-strong)
 RELRO := -Wl,-z,relro,-z,now
 LDFLAGS = -pie $(RELRO) $(SANITIZE)
 WARNINGS = -Wall -Wextra -Wshadow
-CPPFLAGS = -DXXH_INLINE_ALL -Ihost -Ikernels -Imeshio -Iviewer -MMD -MP -DRADSIG_VERSION='"$(VERSION)"'
+CPPFLAGS = -Ihost -Ikernels -Imeshio -Iviewer -MMD -MP -DRADSIG_VERSION='"$(VERSION)"'
 CPPFLAGS += -I. -I$(GENERATED)
 CFLAGS = -std=c11 -D_DEFAULT_SOURCE -D_POSIX_C_SOURCE=200809L -O2 -g -ffp-contract=off $(WARNINGS) \
 	-Wdouble-promotion -Werror=incompatible-pointer-types $(HARDEN) $(SANITIZE)
 CXXFLAGS = -std=c++17 -O2 -g -ffp-contract=off $(WARNINGS) -Wno-maybe-uninitialized $(HARDEN) $(SANITIZE) \
 	$(TOML_CFLAGS)
-LDLIBS = -lOpenCL -lOpenMeshCore $(TOML_LIBS) -lmd -lm
+LDLIBS = -lOpenCL -lOpenMeshCore $(TOML_LIBS) -lmd -lxxhash -lm
 # Each is asked for once, when it is first needed.
 TOML_CFLAGS = $(eval TOML_CFLAGS := $(shell pkg-config --cflags tomlplusplus))$(TOML_CFLAGS)
 TOML_LIBS = $(eval TOML_LIBS := $(shell pkg-config --libs tomlplusplus))$(TOML_LIBS)

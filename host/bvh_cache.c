@@ -11,6 +11,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <xxhash.h>
 
 enum { PATH_SIZE = 4096, KEY_SIZE = 32 };
 
@@ -48,24 +49,13 @@ static void make_key(uint8_t out[KEY_SIZE], const bvh_source *source)
     memcpy(out, digest, KEY_SIZE);
 }
 
-/* FNV-1a over words of eight bytes, its upper half mixed in: finds damage, not malice. */
-static uint64_t add_check(uint64_t check, const void *bytes, size_t size)
-{
-    for (size_t i = 0; i < size; i += sizeof(uint64_t)) {
-        uint64_t word;
-        memcpy(&word, (const char *)bytes + i, sizeof word);
-        check = (check ^ word) * 1099511628211u;
-        check ^= check >> 29;
-    }
-    return check;
-}
-
+/* Finds damage, not malice. */
 static uint64_t check_of(const header *h, const bvh_tables *t)
 {
-    uint64_t check = add_check(14695981039346656037u, h, offsetof(header, check));
+    uint64_t check = XXH3_64bits(h, offsetof(header, check));
 
-    check = add_check(check, t->node, t->node_count * sizeof *t->node);
-    return add_check(check, t->block, t->block_count * sizeof *t->block);
+    check = XXH3_64bits_withSeed(t->node, t->node_count * sizeof *t->node, check);
+    return XXH3_64bits_withSeed(t->block, t->block_count * sizeof *t->block, check);
 }
 
 static off_t file_size(const header *h)
