@@ -114,6 +114,13 @@ $(BUILD)/%.o: %.cpp | build/deps
 $(BUILD)/kernel_files.o: $(BUILD)/kernel_files.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
+# A tree that was kept on disk is one that these sources would build.
+BVH_SOURCES := $(sort $(wildcard kernels/records.h kernels/*/records.h \
+	$(foreach n,bvh.[ch] bvh_binary.[ch] bvh_cache.[ch] bvh_wide.[ch] polygon.[ch],host/$n host/*/$n)))
+$(filter %/bvh_cache.o,$(LIBRARY)): $(BVH_SOURCES)
+$(filter %/bvh_cache.o,$(LIBRARY)): CPPFLAGS += \
+	-DBVH_LAYOUT=0x$(shell cat $(BVH_SOURCES) | sha256sum | cut -c1-16)u
+
 # The text of every kernel file as a C string.
 $(BUILD)/kernel_files.c: $(KERNELS) Makefile | build/deps
 	@mkdir -p $(@D)
