@@ -1,5 +1,6 @@
 /* radsig-atmosphere: makes radiance databases and cloud extinctions with LOWTRAN 7. */
 #include "lowtran.h"
+#include "standard_output.h"
 #include "tool.h"
 
 #include <signal.h>
@@ -30,10 +31,8 @@ static void print_help(FILE *stream)
           stream);
 }
 
-int main(int argc, char **argv)
+static int run(int argc, char **argv)
 {
-    const struct sigaction interrupt = {.sa_handler = lowtran_interrupt};
-
     if (argc < 2) {
         print_help(stderr);
         return TOOL_USAGE;
@@ -46,11 +45,21 @@ int main(int argc, char **argv)
         puts("radsig-atmosphere " RADSIG_VERSION);
         return 0;
     }
-    sigaction(SIGINT, &interrupt, NULL);
-    sigaction(SIGTERM, &interrupt, NULL);
     for (int i = 0; i < COMMAND_COUNT; i++)
         if (!strcmp(argv[1], commands[i].name)) return commands[i].run(argc - 1, argv + 1);
     fprintf(stderr, "radsig-atmosphere: there is no command '%s' (radsig-atmosphere --help)\n",
             argv[1]);
     return TOOL_USAGE;
+}
+
+int main(int argc, char **argv)
+{
+    const struct sigaction interrupt = {.sa_handler = lowtran_interrupt};
+
+    sigaction(SIGINT, &interrupt, NULL);
+    sigaction(SIGTERM, &interrupt, NULL);
+    standard_output_open();
+    const int code = run(argc, argv);
+    const int end = tool_end(argc > 1 ? argv[1] : "", standard_output_close());
+    return code ? code : end;
 }

@@ -1,7 +1,7 @@
 /* radsig: the command line. */
 #include "command.h"
+#include "standard_output.h"
 
-#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -39,7 +39,7 @@ static void print_help(FILE *stream)
           stream);
 }
 
-int main(int argc, char **argv)
+static int run(int argc, char **argv)
 {
     if (argc < 2) {
         print_help(stderr);
@@ -58,9 +58,16 @@ int main(int argc, char **argv)
             print_help(stdout);
         return 0;
     }
-    signal(SIGXFSZ, SIG_IGN); /* a limit on files is then an error of writing */
     for (int i = 0; i < COMMAND_COUNT; i++)
         if (!strcmp(argv[1], commands[i].name)) return commands[i].run(argc - 1, argv + 1);
     fprintf(stderr, "radsig: there is no command '%s' (radsig --help)\n", argv[1]);
     return EXIT_USAGE;
+}
+
+int main(int argc, char **argv)
+{
+    standard_output_open();
+    const int code = run(argc, argv);
+    const int end = command_end(argc > 1 ? argv[1] : "", standard_output_close());
+    return code ? code : end;
 }

@@ -7,6 +7,7 @@
 #include "picture.h"
 #include "saving.h"
 #include "script.h"
+#include "standard_output.h"
 #include "window.h"
 
 #include <getopt.h>
@@ -194,16 +195,23 @@ out:
     return rc;
 }
 
+static int end(status rc)
+{
+    if (rc == STATUS_OK) return 0;
+    print_lines("warning: ", status_warnings());
+    print_lines("", status_message());
+    return 1;
+}
+
 int main(int argc, char **argv)
 {
     arguments a = {0};
     const double start_s = clock_now_s();
     int code;
 
+    standard_output_open();
     code = take_arguments(&a, argc, argv);
-    if (code >= 0) return code;
-    if (run(&a, start_s) == STATUS_OK) return 0;
-    print_lines("warning: ", status_warnings());
-    print_lines("", status_message());
-    return 1;
+    if (code < 0) code = end(run(&a, start_s));
+    const int lost = end(standard_output_close());
+    return code ? code : lost;
 }
