@@ -26,8 +26,9 @@ PYTHON = $(firstword $(foreach p,.venv/bin/python /usr/bin/python3 python3,$(if 
 SANITIZE = $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
 WARNINGS = -Wall -Wextra -Wshadow
 CPPFLAGS = -DXXH_INLINE_ALL -Ihost -Ikernels -Imeshio -Iviewer -MMD -MP -DRADSIG_VERSION='"$(VERSION)"'
+CPPFLAGS += -I. -I$(GENERATED)
 CFLAGS = -std=c11 -D_DEFAULT_SOURCE -D_POSIX_C_SOURCE=200809L -O2 -g -ffp-contract=off $(WARNINGS) \
-	-Wdouble-promotion $(SANITIZE)
+	-Wdouble-promotion -Werror=incompatible-pointer-types $(SANITIZE)
 CXXFLAGS = -std=c++17 -O2 -g -ffp-contract=off $(WARNINGS) -Wno-maybe-uninitialized $(SANITIZE) \
 	$(TOML_CFLAGS)
 LDLIBS = -lOpenCL -lOpenMeshCore $(TOML_LIBS) -lmd -lm
@@ -44,7 +45,8 @@ MESHIO := $(wildcard meshio/*.cpp)
 PLUGINS := $(dir $(PROGRAM))plugins/image.so
 IMAGE := $(patsubst %.cpp,$(BUILD)/%.o,$(wildcard meshio/image/*.cpp) meshio/failure.cpp)
 KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
-LIBRARY := $(HOST:%.c=$(BUILD)/%.o) $(MESHIO:%.cpp=$(BUILD)/%.o) $(BUILD)/kernel_files.o
+GENERATED := $(BUILD)/generated
+LIBRARY := $(HOST:%.c=$(BUILD)/%.o) $(MESHIO:%.cpp=$(BUILD)/%.o) $(GENERATED)/kernel_files.o $(GENERATED)/launches.o
 HOST_TESTS := $(patsubst tests/host/%_test.c,$(BUILD)/tests/%,$(sort $(wildcard tests/host/*_test.c)))
 SCENES := $(patsubst scenes/%/make_geometry.py,scenes/%/.geometry,$(wildcard scenes/*/make_geometry.py))
 
@@ -103,7 +105,7 @@ $(BUILD)/plugins/image.so: $(IMAGE)
 	@mkdir -p $(@D)
 	$(CXX) $(SANITIZE) -shared -o $@ $^ $(IMAGE_LIBS)
 
-$(BUILD)/%.o: %.c | build/deps
+$(BUILD)/%.o: %.c | build/deps $(GENERATED)/launches.h
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
@@ -111,11 +113,19 @@ $(BUILD)/%.o: %.cpp | build/deps
 	@mkdir -p $(@D)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -c -o $@ $<
 
-$(BUILD)/kernel_files.o: $(BUILD)/kernel_files.c
+$(GENERATED)/%.o: $(GENERATED)/%.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
+# How the host launches each kernel; written only where it changed, so that a kernel's body rebuilds nothing else.
+$(GENERATED)/launches.h $(GENERATED)/launches.c: $(GENERATED)/launches.stamp ;
+
+$(GENERATED)/launches.stamp: $(KERNELS) kernels/launches.py | build/deps
+	@mkdir -p $(@D)
+	python3 kernels/launches.py $(@D)
+	@touch $@
+
 # The text of every kernel file as a C string.
-$(BUILD)/kernel_files.c: $(KERNELS) Makefile | build/deps
+$(GENERATED)/kernel_files.c: $(KERNELS) Makefile | build/deps
 	@mkdir -p $(@D)
 	@{ echo '#include "kernel_source.h"'; echo 'const kernel_file kernel_files[] = {'; \
 	for f in $(notdir $(KERNELS)); do echo "{\"$$f\","; \

@@ -13,7 +13,8 @@ struct bodies {
     const scene *s;
     crossing_world world;
     bvh_memory tree;
-    device_memory medium, level;
+    uint_buffer medium;
+    float_buffer level;
 };
 
 static bool is_body(const scene *s, uint32_t facet)
@@ -70,7 +71,7 @@ static status upload_media(bodies *b)
     NEED(medium, STATUS_MEMORY, "no memory for %u facets", g->facet_count);
     for (uint32_t i = 0; i < g->facet_count; i++)
         medium[i] = s->materials[s->material_of[g->material[i]]].medium;
-    TRY(device_allocate(b->dev, &b->medium, g->facet_count * sizeof *medium, medium));
+    TRY(device_allocate(b->dev, &b->medium, g->facet_count, medium));
     for (uint32_t i = 0; i < s->medium_count; i++) {
         const scene_material *m = &s->materials[s->medium_material[i]];
         b->world.stated_k[i] = (float)m->temperature_k;
@@ -98,7 +99,7 @@ static status upload_levels(bodies *b)
     }
     b->world.level_count = (uint32_t)count;
     b->world.altitude_m = level[0][0] + (float)b->s->shape->origin_m[2];
-    TRY(device_allocate(b->dev, &b->level, (count + 1) * sizeof *level, level));
+    TRY(device_allocate(b->dev, &b->level, 2 * (count + 1), level[0]));
 out:
     free(level);
     return rc;
@@ -139,22 +140,22 @@ crossing_world bodies_world(const bodies *b)
     return b->world;
 }
 
-device_memory bodies_nodes(const bodies *b)
+bvh_node_buffer bodies_nodes(const bodies *b)
 {
     return b->tree.node;
 }
 
-device_memory bodies_blocks(const bodies *b)
+bvh_block_buffer bodies_blocks(const bodies *b)
 {
     return b->tree.block;
 }
 
-device_memory bodies_medium(const bodies *b)
+uint_buffer bodies_medium(const bodies *b)
 {
     return b->medium;
 }
 
-device_memory bodies_levels(const bodies *b)
+float_buffer bodies_levels(const bodies *b)
 {
     return b->level;
 }
@@ -175,7 +176,7 @@ static void fill(float *row, const double *table, double constant, const double 
 }
 
 status bodies_sample(const bodies *b, const double *wavenumber_cm1, uint32_t count,
-                     device_memory *out)
+                     float_buffer *out)
 {
     status rc = STATUS_OK;
     const size_t values = (size_t)(CLOUD_GROUND + 1u) * count;
@@ -193,7 +194,7 @@ status bodies_sample(const bodies *b, const double *wavenumber_cm1, uint32_t cou
         fill(own + (size_t)CLOUD_ASYMMETRY * count, from->scattering->asymmetry, 0.0,
              wavenumber_cm1, count);
     }
-    TRY(device_allocate(b->dev, out, values * sizeof *rows, rows));
+    TRY(device_allocate(b->dev, out, values, rows));
 out:
     free(rows);
     return rc;

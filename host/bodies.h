@@ -2,8 +2,7 @@
 #ifndef BODIES_H
 #define BODIES_H
 
-#include "../kernels/crossing_world.h"
-#include "device.h"
+#include "launches.h"
 
 #include <stdbool.h>
 
@@ -22,10 +21,10 @@ void bodies_leave_out(const struct scene *s, uint32_t (*out)[4]);
 
 /* What rays need of it. */
 crossing_world bodies_world(const bodies *b);
-device_memory bodies_nodes(const bodies *b);
-device_memory bodies_blocks(const bodies *b);
-device_memory bodies_medium(const bodies *b); /* uint32, per facet: its material's row */
-device_memory bodies_levels(const bodies *b); /* float, shape (level_count, 2): m, K */
+bvh_node_buffer bodies_nodes(const bodies *b);
+bvh_block_buffer bodies_blocks(const bodies *b);
+uint_buffer bodies_medium(const bodies *b);  /* per facet: its material's row */
+float_buffer bodies_levels(const bodies *b); /* shape (level_count, 2): m, K */
 
 /* True if light that a body takes may come out again. */
 bool bodies_scatter(const bodies *b);
@@ -33,8 +32,8 @@ bool bodies_scatter(const bodies *b);
 /* Samples extinction, albedo and asymmetry of all materials, linear in wavenumber, the last value
  * beyond their ends.
  *   wavenumber_cm1   shape (count)
- *   out              float, rows of `count` as CLOUD_... (kernels/cloud.h), per m; the last is 0 */
+ *   out              rows of `count` as CLOUD_... (kernels/cloud.h), per m; the last is 0 */
 status bodies_sample(const bodies *b, const double *wavenumber_cm1, uint32_t count,
-                     device_memory *out);
+                     float_buffer *out);
 
 #endif

@@ -5,8 +5,8 @@ status bvh_memory_take(bvh_memory *out, device *dev, bvh **tree)
     status rc = STATUS_OK;
     const bvh_tables *tables = bvh_look(*tree);
 
-    TRY(device_share(dev, &out->node, tables->node_count * sizeof *tables->node, tables->node));
-    TRY(device_share(dev, &out->block, tables->block_count * sizeof *tables->block, tables->block));
+    TRY(device_share(dev, &out->node, tables->node_count, tables->node));
+    TRY(device_share(dev, &out->block, tables->block_count, tables->block));
     out->tree = *tree;
     *tree = NULL;
 out:

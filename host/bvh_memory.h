@@ -3,11 +3,12 @@
 #define BVH_MEMORY_H
 
 #include "bvh.h"
-#include "device.h"
+#include "launches.h"
 
 /* Starts zeroed; bvh_memory_free is then safe at any time. */
 typedef struct bvh_memory {
-    device_memory node, block; /* bvh_node, bvh_block */
+    bvh_node_buffer node;
+    bvh_block_buffer block;
     bvh *tree;
 } bvh_memory;
 

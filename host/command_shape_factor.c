@@ -134,9 +134,9 @@ static status open_tables(device *dev, uint32_t facet_count, shape_factor_tables
     const material_record material = {.number = 0};
 
     NEED(facet && temperature_k, STATUS_MEMORY, "no memory for %u facets", facet_count);
-    TRY(device_allocate(dev, &out->facet, facet_count * sizeof *facet, facet));
-    TRY(device_allocate(dev, &out->temperature_k, facet_count * sizeof(float), temperature_k));
-    TRY(device_allocate(dev, &out->material, sizeof material, &material));
+    TRY(device_allocate(dev, &out->facet, facet_count, facet));
+    TRY(device_allocate(dev, &out->temperature_k, facet_count, temperature_k));
+    TRY(device_allocate(dev, &out->material, 1, &material));
 out:
     free(temperature_k);
     free(facet);
@@ -150,7 +150,7 @@ static status run(const factor_request *request)
     shape_factor_grid *grid = NULL;
     shape_factor_tables tables = {0};
     shape_factor_points points = {.count = 1};
-    device_memory out_memory = NULL;
+    background_record_buffer out_memory = {0};
     background_record background;
     hit_record hit;
 
@@ -162,11 +162,11 @@ static status run(const factor_request *request)
                           request->azimuth_step_deg));
     TRY(open_tables(dev, ray_model_geometry(model)->facet_count, &tables));
     hit = make_hit(request, ray_model_geometry(model)->origin_m);
-    TRY(device_allocate(dev, &points.hit, sizeof hit, &hit));
-    TRY(device_allocate(dev, &points.met, shape_factor_cell_count(grid) * sizeof(uint32_t), NULL));
-    TRY(device_allocate(dev, &out_memory, sizeof background, NULL));
+    TRY(device_allocate(dev, &points.hit, 1, &hit));
+    TRY(device_allocate(dev, &points.met, shape_factor_cell_count(grid), NULL));
+    TRY(device_allocate(dev, &out_memory, 1, NULL));
     TRY(shape_factor_run(grid, scene, &tables, NULL, &points, out_memory));
-    TRY(device_download(dev, out_memory, 0, sizeof background, &background));
+    TRY(device_download(dev, out_memory, 1, &background));
     printf("%.6f\n", (double)background.shape_factor);
 out:
     device_release(out_memory);

@@ -30,7 +30,9 @@ typedef struct trace_request {
 
 /* The answers of a batch, here and on the device. */
 typedef struct trace_answer {
-    device_memory ray, range, facet, met;
+    float_buffer ray, range;
+    uint_buffer facet;
+    uchar_buffer met;
     float range_host[RAY_BATCH_SIZE];
     uint32_t facet_host[RAY_BATCH_SIZE];
     uint8_t met_host[RAY_BATCH_SIZE];
@@ -83,10 +85,10 @@ static status open_answer(trace_answer **out, device *dev)
 
     NEED(a, STATUS_MEMORY, "no memory for a batch of rays");
     *out = a;
-    TRY(device_allocate(dev, &a->ray, sizeof(float[6][RAY_BATCH_SIZE]), NULL));
-    TRY(device_allocate(dev, &a->range, sizeof a->range_host, NULL));
-    TRY(device_allocate(dev, &a->facet, sizeof a->facet_host, NULL));
-    TRY(device_allocate(dev, &a->met, sizeof a->met_host, NULL));
+    TRY(device_allocate(dev, &a->ray, 6 * RAY_BATCH_SIZE, NULL));
+    TRY(device_allocate(dev, &a->range, RAY_BATCH_SIZE, NULL));
+    TRY(device_allocate(dev, &a->facet, RAY_BATCH_SIZE, NULL));
+    TRY(device_allocate(dev, &a->met, RAY_BATCH_SIZE, NULL));
 out:
     return rc;
 }
@@ -107,14 +109,14 @@ static status cast(const ray_scene *scene, const ray_batch *batch, bool any_hit,
     device *dev = ray_scene_device(scene);
     const uint32_t n = batch->count;
 
-    TRY(device_upload(dev, a->ray, 0, sizeof batch->ray, batch->ray));
+    TRY(device_upload(dev, a->ray, 6 * RAY_BATCH_SIZE, batch->ray[0]));
     if (any_hit) {
         TRY(ray_scene_occluded(scene, n, RAY_BATCH_SIZE, a->ray, a->met));
-        TRY(device_download(dev, a->met, 0, n, a->met_host));
+        TRY(device_download(dev, a->met, n, a->met_host));
     } else {
         TRY(ray_scene_trace(scene, n, RAY_BATCH_SIZE, a->ray, a->range, a->facet));
-        TRY(device_download(dev, a->range, 0, n * sizeof(float), a->range_host));
-        TRY(device_download(dev, a->facet, 0, n * sizeof(uint32_t), a->facet_host));
+        TRY(device_download(dev, a->range, n, a->range_host));
+        TRY(device_download(dev, a->facet, n, a->facet_host));
     }
 out:
     return rc;

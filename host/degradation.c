@@ -1,5 +1,7 @@
 #include "degradation.h"
 
+#include "launches.h"
+
 #include "../kernels/records.h"
 #include "planck.h"
 
@@ -10,7 +12,7 @@ struct degraded {
     device *dev;
     const degradation *how;
     uint32_t picture_columns, picture_rows;
-    device_memory picture, detectors;
+    float_buffer picture, detectors;
 };
 
 uint32_t degraded_columns(const degraded *d)
@@ -31,9 +33,8 @@ status degraded_open(degraded **out, device *dev, const degradation *how, uint32
 
     NEED(d, STATUS_MEMORY, "no memory for the sensor");
     *d = (degraded){.dev = dev, .how = how, .picture_columns = columns, .picture_rows = rows};
-    TRY(device_allocate(dev, &d->picture, (size_t)columns * rows * sizeof(float), NULL));
-    TRY(device_allocate(dev, &d->detectors,
-                        (size_t)degraded_columns(d) * degraded_rows(d) * sizeof(float), NULL));
+    TRY(device_allocate(dev, &d->picture, (size_t)columns * rows, NULL));
+    TRY(device_allocate(dev, &d->detectors, (size_t)degraded_columns(d) * degraded_rows(d), NULL));
     *out = d;
     d = NULL;
 out:
@@ -73,7 +74,7 @@ static status run_blur(const degraded *d, const psf *p)
     status rc = STATUS_OK;
     const size_t count = (size_t)p->columns * (size_t)p->rows;
     float *weight = malloc(count * sizeof *weight);
-    device_memory weights = NULL;
+    float_buffer weights = {0};
     const blur_record record = {.columns = degraded_columns(d),
                                 .rows = degraded_rows(d),
                                 .step = (uint32_t)d->how->step,
@@ -86,9 +87,11 @@ static status run_blur(const degraded *d, const psf *p)
 
     NEED(weight, STATUS_MEMORY, "no memory for a point spread function");
     for (size_t i = 0; i < count; i++) weight[i] = (float)p->weight[i];
-    TRY(device_allocate(d->dev, &weights, count * sizeof *weight, weight));
-    TRY(device_run(d->dev, "blur", shape2(record.columns, record.rows), ARG(record), ARG(weights),
-                   ARG(d->picture), ARG(d->detectors)));
+    TRY(device_allocate(d->dev, &weights, count, weight));
+    TRY(blur_run(
+        d->dev, shape2(record.columns, record.rows),
+        &(blur_args){
+            .record = record, .weight = weights, .picture = d->picture, .out = d->detectors}));
 out:
     device_release(weights);
     free(weight);
@@ -164,12 +167,13 @@ status degraded_band(degraded *d, const band *b, const atmosphere *air, bool the
 
     TRY(band_sample(&samples, b, air, thesis));
     TRY(build_psf(&p, d->how, samples.centre_um));
-    TRY(device_upload(d->dev, d->picture, 0, pixels * sizeof *radiance, radiance));
+    TRY(device_upload(d->dev, d->picture, pixels, radiance));
     TRY(run_blur(d, p));
     const detector_record record = record_of(d, b, &samples, thesis);
-    TRY(device_run(d->dev, "detector", shape1(record.count), ARG(record), ARG(d->detectors),
-                   ARG(d->detectors)));
-    TRY(device_download(d->dev, d->detectors, 0, record.count * sizeof *out, out));
+    TRY(detector_run(
+        d->dev, shape1(record.count),
+        &(detector_args){.record = record, .radiance = d->detectors, .out = d->detectors}));
+    TRY(device_download(d->dev, d->detectors, record.count, out));
 out:
     psf_free(p);
     band_samples_free(&samples);

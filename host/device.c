@@ -1,10 +1,9 @@
 #define CL_TARGET_OPENCL_VERSION 120
 #include "device.h"
 
-#include "../kernels/records.h"
-
 #include "device_error.h"
 #include "kernel_source.h"
+#include "launches.h"
 #include "pocl_affinity.h"
 
 #include <CL/cl.h>
@@ -12,16 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KERNEL_LIMIT = 40, PACKET = 16 };
+enum { PACKET = 16 };
 
 /* Times are kept as events until someone waits; then they are added up. */
 enum { PENDING_LIMIT = 1024 };
 
-typedef struct device_kernel {
-    char name[48];
+typedef struct built_kernel {
     cl_program program;
-    cl_kernel kernel;
-} device_kernel;
+    cl_kernel kernel; /* NULL: not built yet */
+} built_kernel;
 
 typedef struct device_launch_event {
     cl_event event;
@@ -33,9 +31,8 @@ struct device {
     cl_context context;
     cl_command_queue queue;
     device_info info;
-    device_kernel kernels[KERNEL_LIMIT];
-    device_time times[KERNEL_LIMIT];
-    size_t kernel_count;
+    built_kernel kernels[KERNEL_COUNT];
+    device_time times[KERNEL_COUNT];
     device_launch_event pending[PENDING_LIMIT];
     size_t pending_count;
 };
@@ -164,6 +161,7 @@ status device_open(device **out, int index)
          device_error(error));
     dev->queue = clCreateCommandQueue(dev->context, dev->id, CL_QUEUE_PROFILING_ENABLE, &error);
     NEED(dev->queue, STATUS_DEVICE, "device %s: no queue: %s", dev->info.name, device_error(error));
+    for (size_t i = 0; i < KERNEL_COUNT; i++) dev->times[i].kernel = device_kernels[i].name;
     *out = dev;
     dev = NULL;
 out:
@@ -191,7 +189,8 @@ static status collect_times(device *dev)
         dev->times[launch->kernel].launches++;
         if (state < 0 && rc == STATUS_OK)
             rc = status_set(STATUS_DEVICE, "kernel %s failed on %s: %s",
-                            dev->kernels[launch->kernel].name, dev->info.name, device_error(state));
+                            device_kernels[launch->kernel].name, dev->info.name,
+                            device_error(state));
     }
     dev->pending_count = 0;
     if (rc == STATUS_OK && error != CL_SUCCESS)
@@ -203,7 +202,8 @@ void device_free(device *dev)
 {
     if (!dev) return;
     if (dev->queue) collect_times(dev);
-    for (size_t i = 0; i < dev->kernel_count; i++) {
+    for (size_t i = 0; i < KERNEL_COUNT; i++) {
+        if (!dev->kernels[i].kernel) continue;
         clReleaseKernel(dev->kernels[i].kernel);
         clReleaseProgram(dev->kernels[i].program);
     }
@@ -241,30 +241,29 @@ out:
     return rc;
 }
 
-status device_allocate(device *dev, device_memory *out, size_t bytes, const void *initial)
+status device_memory_allocate(device *dev, device_memory *out, size_t bytes, const void *initial)
 {
     return create(dev, out, CL_MEM_COPY_HOST_PTR, bytes, initial);
 }
 
-status device_share(device *dev, device_memory *out, size_t bytes, const void *memory)
+status device_memory_share(device *dev, device_memory *out, size_t bytes, const void *memory)
 {
     const bool in_place = !strcmp(dev->info.type, "cpu");
 
     return create(dev, out, in_place ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR, bytes, memory);
 }
 
-void device_release(device_memory memory)
+void device_memory_release(device_memory memory)
 {
     if (memory) clReleaseMemObject(memory);
 }
 
-status device_upload(device *dev, device_memory memory, size_t offset, size_t bytes,
-                     const void *source)
+status device_memory_upload(device *dev, device_memory memory, size_t bytes, const void *source)
 {
     status rc = STATUS_OK;
-    const cl_int error = bytes ? clEnqueueWriteBuffer(dev->queue, memory, CL_TRUE, offset, bytes,
-                                                      source, 0, NULL, NULL)
-                               : CL_SUCCESS;
+    const cl_int error =
+        bytes ? clEnqueueWriteBuffer(dev->queue, memory, CL_TRUE, 0, bytes, source, 0, NULL, NULL)
+              : CL_SUCCESS;
 
     NEED(error == CL_SUCCESS, allocation_status(error), "device %s: writing %zu bytes: %s",
          dev->info.name, bytes, device_error(error));
@@ -272,23 +271,21 @@ out:
     return rc;
 }
 
-status device_download(device *dev, device_memory memory, size_t offset, size_t bytes,
-                       void *destination)
+status device_memory_download(device *dev, device_memory memory, size_t bytes, void *destination)
 {
     status rc = STATUS_OK;
     cl_int error;
 
     TRY(collect_times(dev));
     if (bytes == 0) goto out;
-    error =
-        clEnqueueReadBuffer(dev->queue, memory, CL_TRUE, offset, bytes, destination, 0, NULL, NULL);
+    error = clEnqueueReadBuffer(dev->queue, memory, CL_TRUE, 0, bytes, destination, 0, NULL, NULL);
     NEED(error == CL_SUCCESS, allocation_status(error), "device %s: reading %zu bytes: %s",
          dev->info.name, bytes, device_error(error));
 out:
     return rc;
 }
 
-status device_map(device *dev, device_memory memory, size_t bytes, const void **out)
+status device_memory_map(device *dev, device_memory memory, size_t bytes, const void **out)
 {
     status rc = STATUS_OK;
     cl_int error;
@@ -304,7 +301,7 @@ out:
     return rc;
 }
 
-void device_unmap(device *dev, device_memory memory, const void *mapped)
+void device_memory_unmap(device *dev, device_memory memory, const void *mapped)
 {
     if (!mapped) return;
     clEnqueueUnmapMemObject(dev->queue, memory, (void *)mapped, 0, NULL, NULL);
@@ -326,7 +323,7 @@ static status build_failure(device *dev, const char *name, cl_program program, c
     return rc;
 }
 
-static status build_kernel(device *dev, const char *name, device_kernel *out)
+static status build_kernel(device *dev, const char *name, built_kernel *out)
 {
     status rc = STATUS_OK;
     cl_int error;
@@ -341,7 +338,6 @@ static status build_kernel(device *dev, const char *name, device_kernel *out)
     if (error != CL_SUCCESS) TRY(build_failure(dev, name, program, error));
     out->kernel = clCreateKernel(program, name, &error);
     if (!out->kernel) TRY(build_failure(dev, name, program, error));
-    snprintf(out->name, sizeof out->name, "%s", name);
     out->program = program;
     program = NULL;
 out:
@@ -350,53 +346,31 @@ out:
     return rc;
 }
 
-static status find_kernel(device *dev, const char *name, size_t *out)
+status device_prepare(device *dev, size_t kernel)
 {
-    status rc = STATUS_OK;
-    size_t i;
-
-    for (i = 0; i < dev->kernel_count; i++)
-        if (!strcmp(dev->kernels[i].name, name)) break;
-    if (i == dev->kernel_count) {
-        NEED(i < KERNEL_LIMIT, STATUS_DEVICE, "kernel %s: more than %d kernels", name,
-             KERNEL_LIMIT);
-        TRY(build_kernel(dev, name, &dev->kernels[i]));
-        dev->times[i].kernel = dev->kernels[i].name;
-        dev->kernel_count++;
-    }
-    *out = i;
-out:
-    return rc;
+    if (dev->kernels[kernel].kernel) return STATUS_OK;
+    return build_kernel(dev, device_kernels[kernel].name, &dev->kernels[kernel]);
 }
 
-status device_prepare(device *dev, const char *name)
-{
-    size_t index;
-
-    return find_kernel(dev, name, &index);
-}
-
-static status set_arguments(device *dev, const device_kernel *kernel,
-                            const device_argument *arguments, size_t argument_count)
+static status set_arguments(device *dev, size_t kernel, const char *arguments)
 {
     status rc = STATUS_OK;
-    cl_uint expected = 0;
+    const device_kernel *own = &device_kernels[kernel];
 
-    clGetKernelInfo(kernel->kernel, CL_KERNEL_NUM_ARGS, sizeof expected, &expected, NULL);
-    NEED(expected == argument_count, STATUS_DEVICE, "kernel %s takes %u arguments, not %zu",
-         kernel->name, expected, argument_count);
-    for (cl_uint i = 0; i < expected; i++) {
-        const cl_int error =
-            clSetKernelArg(kernel->kernel, i, arguments[i].size, arguments[i].value);
-        NEED(error == CL_SUCCESS, STATUS_DEVICE, "kernel %s on %s, argument %u: %s", kernel->name,
-             dev->info.name, i, device_error(error));
+    for (cl_uint i = 0; i < own->argument_count; i++) {
+        const device_argument *a = &own->arguments[i];
+        const void *value = arguments + a->offset;
+        NEED(a->kind != DEVICE_BUFFER_NEEDED || *(const device_memory *)value, STATUS_DEVICE,
+             "kernel %s: argument %s is missing", own->name, a->name);
+        const cl_int error = clSetKernelArg(dev->kernels[kernel].kernel, i, a->size, value);
+        NEED(error == CL_SUCCESS, STATUS_DEVICE, "kernel %s on %s, argument %s: %s", own->name,
+             dev->info.name, a->name, device_error(error));
     }
 out:
     return rc;
 }
 
-status device_launch(device *dev, const char *name, device_shape shape,
-                     const device_argument *arguments, size_t argument_count)
+status device_launch(device *dev, size_t kernel, device_shape shape, const void *arguments)
 {
     status rc = STATUS_OK;
     const size_t local[2] = {shape.local, 1};
@@ -404,17 +378,17 @@ status device_launch(device *dev, const char *name, device_shape shape,
                               shape.size[1]};
     cl_event event;
     cl_int error;
-    size_t index = 0;
 
     if (shape.size[0] == 0 || shape.size[1] == 0) return STATUS_OK;
-    TRY(find_kernel(dev, name, &index));
-    TRY(set_arguments(dev, &dev->kernels[index], arguments, argument_count));
+    TRY(device_prepare(dev, kernel));
+    TRY(set_arguments(dev, kernel, arguments));
     if (dev->pending_count == PENDING_LIMIT) TRY(collect_times(dev));
-    error = clEnqueueNDRangeKernel(dev->queue, dev->kernels[index].kernel, 2, NULL, global, local,
+    error = clEnqueueNDRangeKernel(dev->queue, dev->kernels[kernel].kernel, 2, NULL, global, local,
                                    0, NULL, &event);
-    NEED(error == CL_SUCCESS, allocation_status(error), "kernel %s over %zu x %zu on %s: %s", name,
-         shape.size[0], shape.size[1], dev->info.name, device_error(error));
-    dev->pending[dev->pending_count++] = (device_launch_event){event, index};
+    NEED(error == CL_SUCCESS, allocation_status(error), "kernel %s over %zu x %zu on %s: %s",
+         device_kernels[kernel].name, shape.size[0], shape.size[1], dev->info.name,
+         device_error(error));
+    dev->pending[dev->pending_count++] = (device_launch_event){event, kernel};
 out:
     return rc;
 }
@@ -439,7 +413,7 @@ status device_times(device *dev, const device_time **out, size_t *out_count)
 
     TRY(collect_times(dev));
     *out = dev->times;
-    *out_count = dev->kernel_count;
+    *out_count = KERNEL_COUNT;
 out:
     return rc;
 }

@@ -33,26 +33,67 @@ status device_open(device **out, int index);
 void device_free(device *dev);
 const device_info *device_describe(const device *dev);
 
-/* Allocates device memory, filled from `initial` unless that is NULL. Fails with STATUS_MEMORY
- * where the device has no room. */
-status device_allocate(device *dev, device_memory *out, size_t bytes, const void *initial);
+/* Memory of elements of one type, NULL until it is allocated: a type of its own, so that no other
+ * elements get there. launches.h declares one for every type that kernels read or write. */
+#define DEVICE_BUFFER(type)                                                                        \
+    typedef union type##_buffer {                                                                  \
+        device_memory memory;                                                                      \
+        type *element; /* never read: tells the type */                                            \
+    } type##_buffer
+
+/* Allocates a buffer of `count` elements, filled from `initial` unless that is NULL. Fails with
+ * STATUS_MEMORY where the device has no room. */
+#define device_allocate(dev, out, count, initial)                                                  \
+    device_memory_allocate(dev, &(out)->memory, DEVICE_BYTES(*(out), count),                       \
+                           DEVICE_SOURCE(*(out), initial))
 
 /* Gives the device host memory that is only read: a CPU uses it where it is, others get a copy. It must
- * outlive `out`. Fails as device_allocate. */
-status device_share(device *dev, device_memory *out, size_t bytes, const void *memory);
-void device_release(device_memory memory);
+ * outlive the buffer. Fails as device_allocate. */
+#define device_share(dev, out, count, elements)                                                    \
+    device_memory_share(dev, &(out)->memory, DEVICE_BYTES(*(out), count),                          \
+                        DEVICE_SOURCE(*(out), elements))
+#define device_release(buffer) device_memory_release((buffer).memory)
 
-status device_upload(device *dev, device_memory memory, size_t offset, size_t bytes,
-                     const void *source);
+/* Writes the first `count` elements. */
+#define device_upload(dev, buffer, count, source)                                                  \
+    device_memory_upload(dev, (buffer).memory, DEVICE_BYTES(buffer, count),                        \
+                         DEVICE_SOURCE(buffer, source))
 
-/* Waits for all launches before it. Failures of those launches show here. */
-status device_download(device *dev, device_memory memory, size_t offset, size_t bytes,
-                       void *destination);
+/* Reads the first `count` elements. Waits for all launches before it. Failures of those launches show
+ * here. */
+#define device_download(dev, buffer, count, destination)                                           \
+    device_memory_download(dev, (buffer).memory, DEVICE_BYTES(buffer, count),                      \
+                           DEVICE_TARGET(buffer, destination))
 
-/* Lets the host read memory from its start, without a copy where device and host share theirs, until
- * it is unmapped. Waits as device_download does. */
-status device_map(device *dev, device_memory memory, size_t bytes, const void **out);
-void device_unmap(device *dev, device_memory memory, const void *mapped); /* NULL is allowed */
+/* Lets the host read the first `count` elements, without a copy where device and host share their
+ * memory, until they are unmapped. Waits as device_download does.
+ *   out   a pointer to constant elements */
+#define device_map(dev, buffer, count, out)                                                        \
+    device_memory_map(dev, (buffer).memory, DEVICE_BYTES(buffer, count),                           \
+                      (const void **)DEVICE_VIEW(buffer, out))
+#define device_unmap(dev, buffer, mapped) device_memory_unmap(dev, (buffer).memory, mapped)
+
+#define DEVICE_BYTES(buffer, count) ((count) * sizeof *(buffer).element)
+
+/* The pointer itself; does not compile where it points to other elements. */
+#define DEVICE_TARGET(buffer, pointer)                                                             \
+    _Generic((pointer), __typeof__(*(buffer).element) * : (pointer))
+#define DEVICE_SOURCE(buffer, pointer)                                                             \
+    _Generic((pointer),                                                                            \
+        __typeof__(*(buffer).element) *: (pointer),                                                   \
+        const __typeof__(*(buffer).element) *: (pointer),                                          \
+        void *: (pointer)) /* NULL */
+#define DEVICE_VIEW(buffer, pointer)                                                               \
+    _Generic((pointer), const __typeof__(*(buffer).element) ** : (pointer))
+
+/* What stands behind these; sizes in bytes. */
+status device_memory_allocate(device *dev, device_memory *out, size_t bytes, const void *initial);
+status device_memory_share(device *dev, device_memory *out, size_t bytes, const void *memory);
+void device_memory_release(device_memory memory);
+status device_memory_upload(device *dev, device_memory memory, size_t bytes, const void *source);
+status device_memory_download(device *dev, device_memory memory, size_t bytes, void *destination);
+status device_memory_map(device *dev, device_memory memory, size_t bytes, const void **out);
+void device_memory_unmap(device *dev, device_memory memory, const void *mapped);
 
 typedef struct device_shape {
     size_t size[2];
@@ -76,35 +117,47 @@ device_shape device_ray_shape(const device *dev, size_t rays, size_t y);
  * of them along x. */
 device_shape device_bundle_shape(const device *dev, size_t points, size_t y);
 
+typedef enum device_argument_kind {
+    DEVICE_VALUE,
+    DEVICE_BUFFER_NEEDED,
+    DEVICE_BUFFER_OPTIONAL /* NULL is allowed */
+} device_argument_kind;
+
+/* An argument of a kernel, and where it stands in the record of its arguments. */
 typedef struct device_argument {
-    size_t size;
-    const void *value;
+    const char *name;
+    size_t offset, size;
+    device_argument_kind kind;
 } device_argument;
 
-/* A kernel argument: device_memory or a scalar or record; `value` must be a variable. */
-#define ARG(value) ((device_argument){sizeof(value), &(value)})
+typedef struct device_kernel {
+    const char *name;
+    const device_argument *arguments;
+    size_t argument_count;
+} device_kernel;
 
-/* Builds kernel `name` before its first launch, so that it need not be waited for there. */
-status device_prepare(device *dev, const char *name);
+/* All kernels by their numbers KERNEL_...; kernels/launches.py makes the list, and launches.h. */
+extern const device_kernel device_kernels[];
 
-/* Launches kernel `name` over a shape; x is padded to the local size, so the kernel returns where
- * its index is past the end. A failure names kernel, shape and error; the build log is in the
- * message.
- *   device_run(dev, "planck", shape1(n), ARG(n), ARG(temperature_k), ARG(radiance)) */
-#define device_run(dev, name, shape, ...)                                                          \
-    device_launch(dev, name, shape, (device_argument[]){__VA_ARGS__},                              \
-                  sizeof((device_argument[]){__VA_ARGS__}) / sizeof(device_argument))
-status device_launch(device *dev, const char *name, device_shape shape,
-                     const device_argument *arguments, size_t argument_count);
+/* Builds a kernel before its first launch, so that it need not be waited for there. */
+status device_prepare(device *dev, size_t kernel);
 
-/* Time on the device per kernel since it was opened; one that was only prepared has no launches. */
+/* Launches a kernel over a shape; x is padded to the local size, so the kernel returns where its index
+ * is past the end. A failure names kernel, shape and error; the build log is in the message. Only
+ * launches.h calls it, by functions whose arguments have names and types:
+ *   planck_run(dev, shape1(n), &(planck_args){.count = n, .temperature_k = t, .radiance = out})
+ *   arguments   a record of the kernel's arguments. A buffer that is left out is an error unless the
+ *               kernel's signature says OPTIONAL */
+status device_launch(device *dev, size_t kernel, device_shape shape, const void *arguments);
+
+/* Time on the device since it was opened. */
 typedef struct device_time {
     const char *kernel;
     double seconds;
     unsigned launches;
 } device_time;
 
-/* Waits for the launches; returns the list, valid until the device is freed. */
+/* Waits for the launches; returns the list of all kernels, valid until the device is freed. */
 status device_times(device *dev, const device_time **out, size_t *out_count);
 
 #endif

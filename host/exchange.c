@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WORK_ROWS = 9, LANES = 16, PASSES = 8 };
+enum { WORK_ROWS = 9, PASSES = 8 };
 
 #define LEAST_SHARE 0.005f /* of a view, that facets take */
 #define SETTLED_W_M2 2.0f
@@ -20,10 +20,12 @@ typedef struct exchange {
     facet_record *facet; /* shape (facet_count) */
     size_t facet_count;
     const facet_light *sun;
-    device_memory lit;               /* of all facets */
-    device_memory sent_w_m2;         /* shape (steps, facet_count) */
-    device_memory before_w_m2;       /* what was received before, shape (steps, columns) */
-    device_memory view, seen, share; /* of the columns */
+    uint_buffer lit;          /* of all facets */
+    float_buffer sent_w_m2;   /* shape (steps, facet_count) */
+    float_buffer before_w_m2; /* what was received before, shape (steps, columns) */
+    view_record_buffer view;  /* of the columns, and what they see */
+    uint_buffer seen;
+    float_buffer share;
 } exchange;
 
 static thermal_span span_of(const exchange *x, size_t count)
@@ -37,24 +39,9 @@ static thermal_span span_of(const exchange *x, size_t count)
                           .step_count = (uint)x->model->step_count};
 }
 
-/* Puts the ladders of facets on the device. */
-static status upload_layered(const thermal *t, const facet_record *facet, size_t count,
-                             device_memory *out)
-{
-    status rc = STATUS_OK;
-    layered_record *layered = malloc((count + 1) * sizeof *layered);
-
-    NEED(layered, STATUS_MEMORY, "no memory for %zu facets of layers", count);
-    thermal_fill_layered(t, facet, count, layered);
-    TRY(device_allocate(t->dev, out, count * sizeof *layered, layered));
-out:
-    free(layered);
-    return rc;
-}
-
 /* The sun on facets, as lit.h has it.
  *   facet   shape (count): which ones; NULL: all */
-static status upload_lit(const exchange *x, const uint32_t *facet, size_t count, device_memory *out)
+static status upload_lit(const exchange *x, const uint32_t *facet, size_t count, uint_buffer *out)
 {
     status rc = STATUS_OK;
     const size_t words = x->sun->words;
@@ -66,33 +53,47 @@ static status upload_lit(const exchange *x, const uint32_t *facet, size_t count,
     for (size_t i = 0; i < count; i++)
         for (size_t w = 0; w < words; w++)
             row[w * count + i] = x->sun->word[(facet ? facet[i] : i) * words + w];
-    TRY(device_allocate(x->model->dev, out, count * words * sizeof *row, row));
+    TRY(device_allocate(x->model->dev, out, count * words, row));
 out:
     free(row);
     return rc;
 }
 
 /* Launches the kernel over the patches; the heat along facets stays with the model. */
-static status conduct_map(const exchange *x, const conduction_map *map, device_memory facets)
+static status conduct_map(const exchange *x, const conduction_map *map,
+                          layered_record_buffer facets)
 {
     status rc = STATUS_OK;
     thermal *t = x->model;
-    const size_t n = map->count, row = n * sizeof(float);
+    const size_t n = map->count;
     const thermal_span span = span_of(x, n);
     const device_shape shape = {{map->patch_count, 1}, 1};
-    device_memory first = NULL, links = NULL, lit = NULL, groups = NULL, rows = NULL;
+    uint_buffer first = {0}, lit = {0};
+    conduction_record_buffer links = {0};
+    conduction_group_buffer groups = {0};
+    float_buffer rows = {0};
 
-    TRY(device_allocate(t->dev, &first, (map->patch_count + 1) * sizeof *map->patch_first,
-                        map->patch_first));
-    TRY(device_allocate(t->dev, &links, n * sizeof *map->link, map->link));
+    TRY(device_allocate(t->dev, &first, map->patch_count + 1, map->patch_first));
+    TRY(device_allocate(t->dev, &links, n, map->link));
     TRY(upload_lit(x, map->facet, n, &lit));
-    TRY(device_allocate(t->dev, &groups, n * sizeof(conduction_group), NULL));
-    TRY(device_allocate(t->dev, &rows, row * WORK_ROWS, NULL));
-    TRY(device_allocate(t->dev, &t->lateral_w_m2, row * 2 * t->step_count, NULL));
-    TRY(device_run(t->dev, "conduction", shape, ARG(span), ARG(map->patch_count), ARG(first),
-                   ARG(facets), ARG(links), ARG(t->forcing), ARG(lit), ARG(t->power_materials),
-                   ARG(t->power), ARG(t->received_columns), ARG(t->received_w_m2), ARG(groups),
-                   ARG(rows), ARG(t->lateral_w_m2)));
+    TRY(device_allocate(t->dev, &groups, n, NULL));
+    TRY(device_allocate(t->dev, &rows, n * WORK_ROWS, NULL));
+    TRY(device_allocate(t->dev, &t->lateral_w_m2, n * 2 * t->step_count, NULL));
+    TRY(conduction_run(t->dev, shape,
+                       &(conduction_args){.span = span,
+                                          .patch_count = map->patch_count,
+                                          .patch_first = first,
+                                          .facets = facets,
+                                          .links = links,
+                                          .forcing = t->forcing,
+                                          .sunlit = lit,
+                                          .power_materials = t->power_materials,
+                                          .power = t->power,
+                                          .received_columns = t->received_columns,
+                                          .received_w_m2 = t->received_w_m2,
+                                          .groups = groups,
+                                          .numbers = rows,
+                                          .lateral_w_m2 = t->lateral_w_m2}));
     t->lateral_columns = (uint32_t)n;
 out:
     device_release(rows);
@@ -109,14 +110,14 @@ static status conduct(const exchange *x)
     status rc = STATUS_OK;
     conduction_map *map = NULL;
     facet_record *at_place = NULL;
-    device_memory facets = NULL;
+    layered_record_buffer facets = {0};
 
     TRY(conduction_find(&map, x->s->shape, x->facet, x->model->material));
     if (map->count == 0) goto out;
     at_place = malloc(map->count * sizeof *at_place);
     NEED(at_place, STATUS_MEMORY, "no memory for %zu facets of patches", map->count);
     for (size_t i = 0; i < map->count; i++) at_place[i] = x->facet[map->facet[i]];
-    TRY(upload_layered(x->model, at_place, map->count, &facets));
+    TRY(thermal_upload_layered(x->model, at_place, map->count, &facets));
     TRY(conduct_map(x, map, facets));
     /* Backwards: a filler repeats the facet before it, without its neighbours. */
     for (size_t i = map->count; i-- > 0;) x->facet[map->facet[i]].lateral_column = (uint32_t)i + 1;
@@ -144,13 +145,12 @@ static status keep_views(exchange *x, const view_factors *f)
         t->sky_share[columns] = v->sky;
         x->facet[i].received_column = ++columns;
     }
-    TRY(device_allocate(t->dev, &x->view, columns * sizeof *kept, kept));
-    TRY(device_allocate(t->dev, &x->seen, f->share_count * sizeof *f->seen, f->seen));
-    TRY(device_allocate(t->dev, &x->share, f->share_count * sizeof *f->share, f->share));
-    TRY(device_allocate(t->dev, &t->received_w_m2, columns * t->step_count * sizeof(float), NULL));
-    TRY(device_allocate(t->dev, &x->before_w_m2, columns * t->step_count * sizeof(float), NULL));
-    TRY(device_allocate(t->dev, &x->sent_w_m2, x->facet_count * t->step_count * sizeof(float),
-                        NULL));
+    TRY(device_allocate(t->dev, &x->view, columns, kept));
+    TRY(device_allocate(t->dev, &x->seen, f->share_count, f->seen));
+    TRY(device_allocate(t->dev, &x->share, f->share_count, f->share));
+    TRY(device_allocate(t->dev, &t->received_w_m2, columns * t->step_count, NULL));
+    TRY(device_allocate(t->dev, &x->before_w_m2, columns * t->step_count, NULL));
+    TRY(device_allocate(t->dev, &x->sent_w_m2, x->facet_count * t->step_count, NULL));
     t->received_columns = columns;
 out:
     free(kept);
@@ -181,23 +181,42 @@ static status pass(exchange *x, bool is_first)
     status rc = STATUS_OK;
     thermal *t = x->model;
     const thermal_span span = span_of(x, x->facet_count);
-    const device_shape shape = {{(x->facet_count + LANES - 1) / LANES, 1}, 4};
     const uint32_t received = is_first ? 0 : t->received_columns, n = span.facet_count;
-    const uint32_t steps = span.step_count;
-    device_memory facets = NULL;
+    layered_record_buffer facets = {0};
 
-    TRY(upload_layered(t, x->facet, x->facet_count, &facets));
-    TRY(device_run(t->dev, "layered", shape, ARG(span), ARG(facets), ARG(t->forcing), ARG(x->lit),
-                   ARG(t->power_materials), ARG(t->power), ARG(t->lateral_columns),
-                   ARG(t->lateral_w_m2), ARG(received), ARG(t->received_w_m2), ARG(x->sent_w_m2)));
-    TRY(device_run(t->dev, "radiosity", shape1(n), ARG(n), ARG(steps), ARG(facets), ARG(t->forcing),
-                   ARG(received), ARG(t->received_w_m2), ARG(x->sent_w_m2)));
-    const device_memory old = t->received_w_m2;
+    TRY(thermal_upload_layered(t, x->facet, x->facet_count, &facets));
+    TRY(layered_run(t->dev, thermal_shape(n),
+                    &(layered_args){.span = span,
+                                    .facets = facets,
+                                    .forcing = t->forcing,
+                                    .sunlit = x->lit,
+                                    .power_materials = t->power_materials,
+                                    .power = t->power,
+                                    .lateral_columns = t->lateral_columns,
+                                    .lateral_w_m2 = t->lateral_w_m2,
+                                    .received_columns = received,
+                                    .received_w_m2 = t->received_w_m2,
+                                    .temperature_k = x->sent_w_m2}));
+    TRY(radiosity_run(t->dev, shape1(n),
+                      &(radiosity_args){.facet_count = n,
+                                        .step_count = span.step_count,
+                                        .facet = facets,
+                                        .forcing = t->forcing,
+                                        .received_columns = received,
+                                        .received_w_m2 = t->received_w_m2,
+                                        .rows = x->sent_w_m2}));
+    const float_buffer old = t->received_w_m2;
     t->received_w_m2 = x->before_w_m2;
     x->before_w_m2 = old;
-    TRY(device_run(t->dev, "irradiation", shape2(t->received_columns, t->step_count),
-                   ARG(t->received_columns), ARG(n), ARG(x->view), ARG(x->seen), ARG(x->share),
-                   ARG(t->forcing), ARG(x->sent_w_m2), ARG(t->received_w_m2)));
+    TRY(irradiation_run(t->dev, shape2(t->received_columns, t->step_count),
+                        &(irradiation_args){.column_count = t->received_columns,
+                                            .facet_count = n,
+                                            .view = x->view,
+                                            .seen = x->seen,
+                                            .share = x->share,
+                                            .forcing = t->forcing,
+                                            .sent_w_m2 = x->sent_w_m2,
+                                            .received_w_m2 = t->received_w_m2}));
 out:
     device_release(facets);
     return rc;
@@ -208,15 +227,19 @@ static status find_change(const exchange *x, bool *out_changes)
 {
     status rc = STATUS_OK;
     const thermal *t = x->model;
-    const uint32_t columns = t->received_columns, steps = (uint32_t)t->step_count;
-    device_memory most = NULL;
+    const uint32_t columns = t->received_columns;
+    float_buffer most = {0};
     float *w_m2 = malloc(columns * sizeof *w_m2);
 
     NEED(w_m2, STATUS_MEMORY, "no memory for %u facets", columns);
-    TRY(device_allocate(t->dev, &most, columns * sizeof *w_m2, NULL));
-    TRY(device_run(t->dev, "largest_change", shape1(columns), ARG(columns), ARG(steps),
-                   ARG(x->before_w_m2), ARG(t->received_w_m2), ARG(most)));
-    TRY(device_download(t->dev, most, 0, columns * sizeof *w_m2, w_m2));
+    TRY(device_allocate(t->dev, &most, columns, NULL));
+    TRY(largest_change_run(t->dev, shape1(columns),
+                           &(largest_change_args){.column_count = columns,
+                                                  .row_count = (uint)t->step_count,
+                                                  .before = x->before_w_m2,
+                                                  .after = t->received_w_m2,
+                                                  .out = most}));
+    TRY(device_download(t->dev, most, columns, w_m2));
     *out_changes = false;
     for (uint32_t i = 0; i < columns; i++) *out_changes |= w_m2[i] > SETTLED_W_M2;
 out:

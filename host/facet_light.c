@@ -37,18 +37,20 @@ static status trace_some(facet_light *out, const facet_light_world *w, uint32_t 
 {
     status rc = STATUS_OK;
     const uint32_t points = count * FACET_SAMPLES, words = sun_history_words(w->sun);
-    const size_t bytes = (size_t)points * words * sizeof(uint32_t);
-    device_memory hit = NULL, history = NULL;
+    const size_t all = (size_t)points * words;
+    hit_record_buffer hit = {0};
+    uint_buffer history = {0};
     hit_record *at = malloc(points * sizeof *at);
-    uint32_t *traced = malloc(bytes);
+    uint32_t *traced = malloc(all * sizeof *traced);
 
     NEED(at && traced, STATUS_MEMORY, "no memory for %u points", points);
     for (uint32_t i = 0; i < count; i++)
         facet_sample(at + i * FACET_SAMPLES, w->shape, first + i, 1);
-    TRY(device_allocate(w->dev, &hit, points * sizeof *at, at));
-    TRY(device_allocate(w->dev, &history, bytes, NULL));
-    TRY(sun_history_trace(w->sun, w->rays, w->facets, points, hit, NULL, history));
-    TRY(device_download(w->dev, history, 0, bytes, traced));
+    TRY(device_allocate(w->dev, &hit, points, at));
+    TRY(device_allocate(w->dev, &history, all, NULL));
+    TRY(sun_history_trace(
+        w->sun, w->rays, &(sun_points){.count = points, .facets = w->facets, .hit = hit}, history));
+    TRY(device_download(w->dev, history, all, traced));
     for (uint32_t i = 0; i < count; i++)
         set_mean(out, traced + (size_t)i * FACET_SAMPLES * words, words, first + i);
 out:

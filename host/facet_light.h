@@ -19,7 +19,7 @@ typedef struct facet_light_world {
     const geometry *shape;
     const ray_scene *rays;
     const sun_history *sun;
-    device_memory facets; /* facet_record, on the device */
+    facet_record_buffer facets;
 } facet_light_world;
 
 /* Takes the mean over the points of each facet (facet_sample.h); a facet beyond the geometry, the

@@ -14,7 +14,7 @@ struct incident {
     const shape_factor_grid *grid;
     shape_factor_tables tables;
     incident_record how;
-    device_memory dome; /* float, shape (DOME_ROWS, how.dome_count) */
+    float_buffer dome; /* shape (DOME_ROWS, how.dome_count) */
 };
 
 /* A point between two rows of a table. */
@@ -88,8 +88,7 @@ static status make_dome(incident *in, const radiometry_record *frame)
     NEED(dome, STATUS_MEMORY, "no memory for the sky");
     fill_dome(dome, count, zeniths, azimuths, frame);
     in->how.dome_count = count;
-    TRY(device_allocate(ray_scene_device(in->scene), &in->dome,
-                        (size_t)DOME_ROWS * count * sizeof *dome, dome));
+    TRY(device_allocate(ray_scene_device(in->scene), &in->dome, (size_t)DOME_ROWS * count, dome));
 out:
     free(dome);
     return rc;
@@ -132,49 +131,72 @@ static incident_record how_of(const incident *in, const incident_pixels *p)
     incident_record how = in->how;
 
     how.light_length = p->light_length;
-    how.is_of_facets = p->background == NULL;
+    how.is_of_facets = p->background.memory == NULL;
     how.keeps_sky = p->keeps_sky;
     return how;
 }
 
 /* What bodies change of it. */
-static status run_bodies(const incident *in, const incident_pixels *p, device_memory out)
+static status run_bodies(const incident *in, const incident_pixels *p, float_buffer out)
 {
-    const incident_record how = how_of(in, p);
-    const device_memory cell = shape_factor_cells(in->grid);
-    const world_record world = ray_scene_world(in->scene);
-    const crossing_world bodies_around = bodies_world(p->bodies);
-    const device_memory nodes = ray_scene_nodes(in->scene), blocks = ray_scene_blocks(in->scene);
-    const device_memory body_nodes = bodies_nodes(p->bodies);
-    const device_memory body_blocks = bodies_blocks(p->bodies);
-    const device_memory medium = bodies_medium(p->bodies), levels = bodies_levels(p->bodies);
-
-    return device_run(
-        ray_scene_device(in->scene), "incident_bodies", shape1(p->frame.pixel_count), ARG(p->frame),
-        ARG(p->camera), ARG(how), ARG(cell), ARG(world), ARG(bodies_around), ARG(nodes),
-        ARG(blocks), ARG(body_nodes), ARG(body_blocks), ARG(medium), ARG(levels),
-        ARG(in->tables.facet), ARG(in->tables.material), ARG(in->tables.temperature_k),
-        ARG(p->facet_background), ARG(p->light), ARG(p->points.hit), ARG(p->points.order),
-        ARG(p->background), ARG(p->background_lit), ARG(p->points.met), ARG(p->gloss),
-        ARG(p->spectra), ARG(p->emissivity), ARG(p->extinction), ARG(out));
+    return incident_bodies_run(ray_scene_device(in->scene), shape1(p->frame.pixel_count),
+                               &(incident_bodies_args){.frame = p->frame,
+                                                       .camera = p->camera,
+                                                       .how = how_of(in, p),
+                                                       .cell = shape_factor_cells(in->grid),
+                                                       .world = ray_scene_world(in->scene),
+                                                       .bodies = bodies_world(p->bodies),
+                                                       .nodes = ray_scene_nodes(in->scene),
+                                                       .blocks = ray_scene_blocks(in->scene),
+                                                       .body_nodes = bodies_nodes(p->bodies),
+                                                       .body_blocks = bodies_blocks(p->bodies),
+                                                       .medium = bodies_medium(p->bodies),
+                                                       .level = bodies_levels(p->bodies),
+                                                       .facets = in->tables.facet,
+                                                       .materials = in->tables.material,
+                                                       .temperature_k = in->tables.temperature_k,
+                                                       .facet_background = p->facet_background,
+                                                       .light = p->light,
+                                                       .hit = p->points.hit,
+                                                       .order = p->points.order,
+                                                       .background = p->background,
+                                                       .background_lit = p->background_lit,
+                                                       .met = p->points.met,
+                                                       .gloss_words = p->gloss,
+                                                       .spectra = p->spectra,
+                                                       .emissivity = p->emissivity,
+                                                       .extinction = p->extinction,
+                                                       .out = out});
 }
 
-status incident_run(const incident *in, const incident_pixels *p, device_memory out)
+status incident_compute(const incident *in, const incident_pixels *p, float_buffer out)
 {
     status rc = STATUS_OK;
-    const incident_record how = how_of(in, p);
-    const device_memory cell = shape_factor_cells(in->grid);
     const bool is_bundle = device_describe(ray_scene_device(in->scene))->ray_lanes > 1;
     const uint32_t at_once = is_bundle ? RAY_BUNDLE : PIXELS_AT_ONCE;
     const uint32_t groups = (p->frame.pixel_count + at_once - 1) / at_once;
     const device_shape shape = {{groups, 1}, is_bundle ? 1 : 4};
 
-    TRY(device_run(
-        ray_scene_device(in->scene), "incident", shape, ARG(p->frame), ARG(p->camera), ARG(how),
-        ARG(cell), ARG(in->dome), ARG(in->tables.facet), ARG(in->tables.material),
-        ARG(in->tables.temperature_k), ARG(p->facet_background), ARG(p->light), ARG(p->points.hit),
-        ARG(p->points.order), ARG(p->background), ARG(p->background_lit), ARG(p->points.met),
-        ARG(p->gloss), ARG(p->spectra), ARG(p->emissivity), ARG(out)));
+    TRY(incident_run(ray_scene_device(in->scene), shape,
+                     &(incident_args){.frame = p->frame,
+                                      .camera = p->camera,
+                                      .how = how_of(in, p),
+                                      .cell = shape_factor_cells(in->grid),
+                                      .dome = in->dome,
+                                      .facets = in->tables.facet,
+                                      .materials = in->tables.material,
+                                      .temperature_k = in->tables.temperature_k,
+                                      .facet_background = p->facet_background,
+                                      .light = p->light,
+                                      .hit = p->points.hit,
+                                      .order = p->points.order,
+                                      .background = p->background,
+                                      .background_lit = p->background_lit,
+                                      .met = p->points.met,
+                                      .gloss_words = p->gloss,
+                                      .spectra = p->spectra,
+                                      .emissivity = p->emissivity,
+                                      .out = out}));
     if (p->bodies) TRY(run_bodies(in, p, out));
 out:
     return rc;

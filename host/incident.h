@@ -26,19 +26,20 @@ typedef struct incident_pixels {
     radiometry_record frame;
     camera_record camera;
     shape_factor_points points;
-    device_memory background, background_lit; /* NULL: the surfaces are facets', taken as diffuse */
-    device_memory facet_background;           /* background_record, per facet, the ground's last */
-    device_memory light;                      /* see interreflection.h */
+    background_record_buffer background; /* NULL: the surfaces are facets', taken as diffuse */
+    float_buffer background_lit;
+    background_record_buffer facet_background; /* per facet, the ground's last */
+    float_buffer light;                        /* see interreflection.h */
     uint32_t light_length;
-    bool keeps_sky;      /* of facets: out holds the sky's part from before */
-    device_memory gloss; /* see gloss.cl; NULL: nothing is rough */
-    device_memory spectra, emissivity;
-    const bodies *bodies;     /* NULL: none */
-    device_memory extinction; /* of bodies: see bodies_sample */
+    bool keeps_sky;    /* of facets: out holds the sky's part from before */
+    uint_buffer gloss; /* see gloss.cl; NULL: nothing is rough */
+    float_buffer spectra, emissivity;
+    const bodies *bodies;    /* NULL: none */
+    float_buffer extinction; /* of bodies: see bodies_sample */
 } incident_pixels;
 
 /* Computes the radiance.
- *   out   float, shape (pixel_count, 2, sample_count): of the sky, of facets and ground */
-status incident_run(const incident *in, const incident_pixels *pixels, device_memory out);
+ *   out   shape (pixel_count, 2, sample_count): of the sky, of facets and ground */
+status incident_compute(const incident *in, const incident_pixels *pixels, float_buffer out);
 
 #endif

@@ -13,15 +13,15 @@ typedef struct chunk {
     uint32_t first;
     uint32_t last_depth; /* the last at which they do */
     shape_factor_points points;
-    device_memory arriving; /* what reaches them: (count, 2, spectra.sample_count) */
+    float_buffer arriving; /* what reaches them: (count, 2, spectra.sample_count) */
 } chunk;
 
 struct interreflection {
     interreflection_scene from;
     interreflection_spectra spectra;
     uint32_t depth;
-    device_memory background; /* background_record, per facet, the ground's last */
-    device_memory light;      /* float, shape (facets, LIGHT_ROWS, spectra.sample_count) */
+    background_record_buffer background; /* per facet, the ground's last */
+    float_buffer light;                  /* shape (facets, LIGHT_ROWS, spectra.sample_count) */
     uint32_t chunk_count;
     chunk *chunks;
     float sun[3]; /* that the rays were cast for */
@@ -64,9 +64,8 @@ static status open_chunk(const interreflection *f, chunk *c, uint32_t first, uin
     NEED(hits, STATUS_MEMORY, "no memory for %u facets", count);
     *c = (chunk){.first = first, .last_depth = 1, .points.count = count};
     for (uint32_t i = 0; i < count; i++) hits[i] = middle(f->from.shape, first + i);
-    TRY(device_allocate(device_of(f), &c->points.hit, count * sizeof *hits, hits));
-    TRY(device_allocate(device_of(f), &c->points.met, (size_t)count * cells * sizeof(uint32_t),
-                        NULL));
+    TRY(device_allocate(device_of(f), &c->points.hit, count, hits));
+    TRY(device_allocate(device_of(f), &c->points.met, (size_t)count * cells, NULL));
 out:
     free(hits);
     return rc;
@@ -79,7 +78,8 @@ static void free_chunk(chunk *c)
     device_release(c->points.hit);
 }
 
-static status cast_rays(const interreflection *f, const chunk *c, device_memory background)
+static status cast_rays(const interreflection *f, const chunk *c,
+                        background_record_buffer background)
 {
     return shape_factor_run(f->from.grid, f->from.scene, &f->from.tables, f->sun, &c->points,
                             background);
@@ -105,8 +105,7 @@ static status sort_chunk(interreflection *f, chunk *c, const background_record *
     }
     f->chunk_count++;
     TRY(device_allocate(device_of(f), &c->arriving,
-                        (size_t)c->points.count * 2 * f->spectra.sample_count * sizeof(float),
-                        NULL));
+                        (size_t)c->points.count * 2 * f->spectra.sample_count, NULL));
 out:
     return rc;
 }
@@ -117,24 +116,23 @@ static status look_around(interreflection *f, const float *reflectance, uint32_t
 {
     status rc = STATUS_OK;
     const uint32_t count = f->from.shape->facet_count;
-    device_memory background = NULL;
+    background_record_buffer background = {0};
     background_record *records = calloc(count_all(f), sizeof *records);
 
     f->chunks = calloc(count / CHUNK + 1, sizeof *f->chunks);
     NEED(records && f->chunks, STATUS_MEMORY, "no memory for %u facets", count);
-    TRY(device_allocate(device_of(f), &background, CHUNK * sizeof *records, NULL));
+    TRY(device_allocate(device_of(f), &background, CHUNK, NULL));
     for (uint32_t first = 0; first < count; first += CHUNK) {
         chunk *c = &f->chunks[f->chunk_count];
         TRY(open_chunk(f, c, first, count - first < CHUNK ? count - first : CHUNK));
         TRY(cast_rays(f, c, background));
-        TRY(device_download(device_of(f), background, 0, c->points.count * sizeof *records,
-                            records + first));
+        TRY(device_download(device_of(f), background, c->points.count, records + first));
         TRY(sort_chunk(f, c, records, reflectance, wanted, reach));
     }
     /* The endless plane sees nothing but sky. */
     records[count] =
         (background_record){.shape_factor = 1.0f, .material = RECORD_NONE, .facet = RECORD_NONE};
-    TRY(device_allocate(device_of(f), &f->background, count_all(f) * sizeof *records, records));
+    TRY(device_allocate(device_of(f), &f->background, count_all(f), records));
 out:
     device_release(background);
     free(records);
@@ -154,14 +152,12 @@ static bool is_reached(const chunk *c, const float *reach)
 static status find_depth(interreflection *f, const float *reflectance, float *reach)
 {
     status rc = STATUS_OK;
-    const uint32_t cells = shape_factor_cell_count(f->from.grid);
-    const device_memory cell = shape_factor_cells(f->from.grid);
-    const size_t bytes = count_all(f) * sizeof(float);
-    device_memory reflects = NULL, before = NULL, after = NULL;
+    const size_t all = count_all(f);
+    float_buffer reflects = {0}, before = {0}, after = {0};
 
-    TRY(device_allocate(device_of(f), &reflects, bytes, reflectance));
-    TRY(device_allocate(device_of(f), &before, bytes, reach));
-    TRY(device_allocate(device_of(f), &after, bytes, reach));
+    TRY(device_allocate(device_of(f), &reflects, all, reflectance));
+    TRY(device_allocate(device_of(f), &before, all, reach));
+    TRY(device_allocate(device_of(f), &after, all, reach));
     f->depth = 1;
     for (uint32_t d = 2; d <= INTERREFLECTION_DEPTH; d++) {
         for (uint32_t i = 0; i < f->chunk_count; i++)
@@ -169,12 +165,19 @@ static status find_depth(interreflection *f, const float *reflectance, float *re
         if (f->depth < d) break;
         for (uint32_t i = 0; i < f->chunk_count; i++) {
             const shape_factor_points *points = &f->chunks[i].points;
-            TRY(device_run(device_of(f), "interreflection_reach", shape1(points->count),
-                           ARG(points->count), ARG(cells), ARG(cell), ARG(points->hit),
-                           ARG(points->met), ARG(reflects), ARG(before), ARG(after)));
+            TRY(interreflection_reach_run(
+                device_of(f), shape1(points->count),
+                &(interreflection_reach_args){.count = points->count,
+                                              .cell_count = shape_factor_cell_count(f->from.grid),
+                                              .cell = shape_factor_cells(f->from.grid),
+                                              .hit = points->hit,
+                                              .met = points->met,
+                                              .reflectance = reflects,
+                                              .before = before,
+                                              .reach = after}));
         }
-        TRY(device_download(device_of(f), after, 0, bytes, reach));
-        TRY(device_upload(device_of(f), before, 0, bytes, reach));
+        TRY(device_download(device_of(f), after, all, reach));
+        TRY(device_upload(device_of(f), before, all, reach));
     }
 out:
     device_release(after);
@@ -199,8 +202,8 @@ status interreflection_open(interreflection **out, const interreflection_scene *
     f->depth = depth;
     for (uint32_t i = 0; i < f->chunk_count; i++) f->chunks[i].last_depth = depth;
     if (depth == 0) TRY(find_depth(f, reflectance, reach));
-    TRY(device_allocate(device_of(f), &f->light,
-                        count_all(f) * LIGHT_ROWS * spectra->sample_count * sizeof(float), NULL));
+    TRY(device_allocate(device_of(f), &f->light, count_all(f) * LIGHT_ROWS * spectra->sample_count,
+                        NULL));
     *out = f;
     f = NULL;
 out:
@@ -232,12 +235,20 @@ static radiometry_record frame_of(const interreflection *f, const radiometry_rec
 /* Writes the light of facets from what arrives there.
  *   hit, arriving   NULL: of the first facets, what closes it */
 static status write_light(const interreflection *f, const radiometry_record *frame,
-                          device_memory hit, device_memory arriving)
+                          hit_record_buffer hit, float_buffer arriving)
 {
-    return device_run(device_of(f), "interreflection", shape1(frame->pixel_count), ARG(*frame),
-                      ARG(hit), ARG(f->from.tables.facet), ARG(f->from.tables.material),
-                      ARG(f->from.tables.temperature_k), ARG(f->background), ARG(f->spectra.rows),
-                      ARG(f->spectra.emissivity), ARG(arriving), ARG(f->light));
+    return interreflection_run(
+        device_of(f), shape1(frame->pixel_count),
+        &(interreflection_args){.frame = *frame,
+                                .hit = hit,
+                                .facets = f->from.tables.facet,
+                                .materials = f->from.tables.material,
+                                .temperature_k = f->from.tables.temperature_k,
+                                .facet_background = f->background,
+                                .spectra = f->spectra.rows,
+                                .emissivity = f->spectra.emissivity,
+                                .arriving = arriving,
+                                .light = f->light});
 }
 
 /* Takes light one facet further. */
@@ -257,7 +268,7 @@ static status pass_on(const interreflection *f, const radiometry_record *frame, 
             .spectra = f->spectra.rows,
             .emissivity = f->spectra.emissivity,
         };
-        if (depth <= c->last_depth) TRY(incident_run(f->from.around, &pixels, c->arriving));
+        if (depth <= c->last_depth) TRY(incident_compute(f->from.around, &pixels, c->arriving));
     }
     for (uint32_t i = 0; i < f->chunk_count; i++) {
         const chunk *c = &f->chunks[i];
@@ -272,11 +283,11 @@ out:
 static status turn_sun(interreflection *f, const float *sun)
 {
     status rc = STATUS_OK;
-    device_memory background = NULL;
+    background_record_buffer background = {0};
 
     f->is_lit = false;
     memcpy(f->sun, sun, sizeof f->sun);
-    TRY(device_allocate(device_of(f), &background, CHUNK * sizeof(background_record), NULL));
+    TRY(device_allocate(device_of(f), &background, CHUNK, NULL));
     for (uint32_t i = 0; i < f->chunk_count; i++) TRY(cast_rays(f, &f->chunks[i], background));
 out:
     device_release(background);
@@ -291,19 +302,19 @@ status interreflection_set_sun(interreflection *f, const radiometry_record *fram
 
     if (memcmp(f->sun, frame->sun, sizeof f->sun) != 0) TRY(turn_sun(f, frame->sun));
     if (f->is_lit) goto out;
-    TRY(write_light(f, &all, NULL, NULL));
+    TRY(write_light(f, &all, (hit_record_buffer){0}, (float_buffer){0}));
     for (uint32_t d = 2; d <= f->depth; d++) TRY(pass_on(f, frame, d));
     f->is_lit = true;
 out:
     return rc;
 }
 
-device_memory interreflection_background(const interreflection *f)
+background_record_buffer interreflection_background(const interreflection *f)
 {
     return f->background;
 }
 
-device_memory interreflection_rows(const interreflection *f)
+float_buffer interreflection_rows(const interreflection *f)
 {
     return f->light;
 }

@@ -12,7 +12,7 @@ typedef struct interreflection interreflection;
  * memory and change little, as it concerns light that is reflected twice. */
 typedef struct interreflection_spectra {
     uint32_t sample_count; /* blocks, padded to 16 */
-    device_memory rows, emissivity;
+    float_buffer rows, emissivity;
 } interreflection_spectra;
 
 /* What light meets. */
@@ -47,9 +47,9 @@ void interreflection_free(interreflection *f);
  * a black body at its temperature. */
 status interreflection_set_sun(interreflection *f, const radiometry_record *frame);
 
-/* background_record, per facet, the ground's last; and float, shape (facets, LIGHT_ROWS, sample_count) of the
+/* Per facet, the ground's last; and shape (facets, LIGHT_ROWS, sample_count) of the
  * spectra: see interreflection.cl. They change with the sun. */
-device_memory interreflection_background(const interreflection *f);
-device_memory interreflection_rows(const interreflection *f);
+background_record_buffer interreflection_background(const interreflection *f);
+float_buffer interreflection_rows(const interreflection *f);
 
 #endif

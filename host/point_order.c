@@ -97,8 +97,8 @@ out:
     return rc;
 }
 
-status point_order_run(device *dev, device_memory hit, const facet_record *facet,
-                       const point_tile *tile, device_memory out_order, device_memory out_hit)
+status point_order_run(device *dev, hit_record_buffer hit, const facet_record *facet,
+                       const point_tile *tile, uint_buffer out_order, hit_record_buffer out_hit)
 {
     status rc = STATUS_OK;
     const uint32_t count = tile->count;
@@ -107,11 +107,11 @@ status point_order_run(device *dev, device_memory hit, const facet_record *facet
     hit_record *ordered = malloc((count + 1) * sizeof *ordered);
 
     NEED(order && ordered, STATUS_MEMORY, "no memory to order %u points", count);
-    TRY(device_map(dev, hit, count * sizeof *from, (const void **)&from));
+    TRY(device_map(dev, hit, count, &from));
     TRY(point_order_fill(order, from, facet, tile));
     for (uint32_t i = 0; i < count; i++) ordered[i] = from[order[i]];
-    TRY(device_upload(dev, out_order, 0, count * sizeof *order, order));
-    TRY(device_upload(dev, out_hit, 0, count * sizeof *ordered, ordered));
+    TRY(device_upload(dev, out_order, count, order));
+    TRY(device_upload(dev, out_hit, count, ordered));
 out:
     device_unmap(dev, hit, from);
     free(ordered);

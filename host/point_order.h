@@ -3,9 +3,7 @@
 #ifndef POINT_ORDER_H
 #define POINT_ORDER_H
 
-#include "../kernels/records.h"
-
-#include "device.h"
+#include "launches.h"
 
 /* Points of an image, row after row. */
 typedef struct point_tile {
@@ -23,9 +21,9 @@ status point_order_fill(uint32_t *order, const hit_record *hit, const facet_reco
                         const point_tile *tile);
 
 /* The same on a device.
- *   hit         hit_record, shape (tile->count)
- *   out_order   uint32, shape (tile->count); out_hit: hit_record, the points in that order */
-status point_order_run(device *dev, device_memory hit, const facet_record *facet,
-                       const point_tile *tile, device_memory out_order, device_memory out_hit);
+ *   hit         shape (tile->count)
+ *   out_order   shape (tile->count); out_hit: the points in that order */
+status point_order_run(device *dev, hit_record_buffer hit, const facet_record *facet,
+                       const point_tile *tile, uint_buffer out_order, hit_record_buffer out_hit);
 
 #endif

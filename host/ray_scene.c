@@ -67,12 +67,12 @@ device *ray_scene_device(const ray_scene *scene)
     return scene->dev;
 }
 
-device_memory ray_scene_nodes(const ray_scene *scene)
+bvh_node_buffer ray_scene_nodes(const ray_scene *scene)
 {
     return scene->tree.node;
 }
 
-device_memory ray_scene_blocks(const ray_scene *scene)
+bvh_block_buffer ray_scene_blocks(const ray_scene *scene)
 {
     return scene->tree.block;
 }
@@ -83,7 +83,7 @@ world_record ray_scene_world(const ray_scene *scene)
 }
 
 status ray_scene_primary(const ray_scene *scene, const camera_record *camera, uint32_t columns,
-                         uint32_t first_pixel, uint32_t count, device_memory out_hit)
+                         uint32_t first_pixel, uint32_t count, hit_record_buffer out_hit)
 {
     const uint32_t side = device_describe(scene->dev)->ray_lanes == 1 ? 1 : 4;
     const uint32_t rows = (first_pixel + count + columns - 1) / columns - first_pixel / columns;
@@ -94,9 +94,15 @@ status ray_scene_primary(const ray_scene *scene, const camera_record *camera, ui
     world_record world = scene->world;
 
     world.cull_back = scene->camera_culls;
-    return device_run(scene->dev, "primary", shape, ARG(count), ARG(first_pixel), ARG(columns),
-                      ARG(*camera), ARG(world), ARG(scene->tree.node), ARG(scene->tree.block),
-                      ARG(out_hit));
+    return primary_run(scene->dev, shape,
+                       &(primary_args){.count = count,
+                                       .first_pixel = first_pixel,
+                                       .columns = columns,
+                                       .camera = *camera,
+                                       .world = world,
+                                       .nodes = scene->tree.node,
+                                       .blocks = scene->tree.block,
+                                       .out_hit = out_hit});
 }
 
 /* A work-item has a batch of rays where it has packets; kernels/ray_order.h. */
@@ -108,18 +114,29 @@ static device_shape batches(const device *dev, uint32_t count)
     return (device_shape){{(count + packed - 1) / packed, 1}, 1};
 }
 
-status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t stride, device_memory rays,
-                       device_memory out_range, device_memory out_facet)
+status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t stride, float_buffer rays,
+                       float_buffer out_range, uint_buffer out_facet)
 {
-    return device_run(scene->dev, "trace", batches(scene->dev, count), ARG(count), ARG(stride),
-                      ARG(scene->world), ARG(scene->tree.node), ARG(scene->tree.block), ARG(rays),
-                      ARG(out_range), ARG(out_facet));
+    return trace_run(scene->dev, batches(scene->dev, count),
+                     &(trace_args){.count = count,
+                                   .stride = stride,
+                                   .world = scene->world,
+                                   .nodes = scene->tree.node,
+                                   .blocks = scene->tree.block,
+                                   .rays = rays,
+                                   .out_range = out_range,
+                                   .out_facet = out_facet});
 }
 
 status ray_scene_occluded(const ray_scene *scene, uint32_t count, uint32_t stride,
-                          device_memory rays, device_memory out_met)
+                          float_buffer rays, uchar_buffer out_met)
 {
-    return device_run(scene->dev, "occluded", batches(scene->dev, count), ARG(count), ARG(stride),
-                      ARG(scene->world), ARG(scene->tree.node), ARG(scene->tree.block), ARG(rays),
-                      ARG(out_met));
+    return occluded_run(scene->dev, batches(scene->dev, count),
+                        &(occluded_args){.count = count,
+                                         .stride = stride,
+                                         .world = scene->world,
+                                         .nodes = scene->tree.node,
+                                         .blocks = scene->tree.block,
+                                         .rays = rays,
+                                         .out_met = out_met});
 }

@@ -3,7 +3,7 @@
 #define RAY_SCENE_H
 
 #include "bvh.h"
-#include "device.h"
+#include "launches.h"
 
 #include <stdbool.h>
 
@@ -23,26 +23,26 @@ void ray_scene_set_ground(ray_scene *scene, uint32_t facet, float z_m);
 void ray_scene_set_cull(ray_scene *scene, bool by_camera, bool by_others);
 
 device *ray_scene_device(const ray_scene *scene);
-device_memory ray_scene_nodes(const ray_scene *scene);
-device_memory ray_scene_blocks(const ray_scene *scene);
+bvh_node_buffer ray_scene_nodes(const ray_scene *scene);
+bvh_block_buffer ray_scene_blocks(const ray_scene *scene);
 world_record ray_scene_world(const ray_scene *scene);
 
 /* Casts the rays of pixels first_pixel .. first_pixel + count - 1, counted along the rows.
  * Ranges are metres. Thesis 2.5.3.
- *   out_hit   hit_record, shape (count); the ground plane is met as its facet */
+ *   out_hit   shape (count); the ground plane is met as its facet */
 status ray_scene_primary(const ray_scene *scene, const camera_record *camera, uint32_t columns,
-                         uint32_t first_pixel, uint32_t count, device_memory out_hit);
+                         uint32_t first_pixel, uint32_t count, hit_record_buffer out_hit);
 
 /* Casts any rays. Direction need not be unit; ranges are in its lengths, above 0.
- *   rays        float, shape (6, stride), stride >= count: origins, directions
- *   out_range   float, shape (count): INFINITY for a miss
- *   out_facet   uint32, shape (count): RECORD_NONE for a miss; of equal ranges the lowest facet */
-status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t stride, device_memory rays,
-                       device_memory out_range, device_memory out_facet);
+ *   rays        shape (6, stride), stride >= count: origins, directions
+ *   out_range   shape (count): INFINITY for a miss
+ *   out_facet   shape (count): RECORD_NONE for a miss; of equal ranges the lowest facet */
+status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t stride, float_buffer rays,
+                       float_buffer out_range, uint_buffer out_facet);
 
 /* As ray_scene_trace, but only tells whether a ray meets anything.
- *   out_met   uint8, shape (count): 0 or 1 */
+ *   out_met   shape (count): 0 or 1 */
 status ray_scene_occluded(const ray_scene *scene, uint32_t count, uint32_t stride,
-                          device_memory rays, device_memory out_met);
+                          float_buffer rays, uchar_buffer out_met);
 
 #endif

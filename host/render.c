@@ -28,10 +28,11 @@ struct render {
 
 void render_prepare(device *dev, const atomic_bool *is_vain)
 {
-    static const char *const kernel[] = {
-        "sun_history", "hemisphere",  "band_temperature", "background", "primary",
-        "sunlight",    "mirror",      "background_hit",   "sun_times",  "truth",
-        "radiometry",  "band_planes", "band_emissivity"};
+    static const size_t kernel[] = {
+        KERNEL_SUN_HISTORY,    KERNEL_HEMISPHERE, KERNEL_BAND_TEMPERATURE, KERNEL_BACKGROUND,
+        KERNEL_PRIMARY,        KERNEL_SUNLIGHT,   KERNEL_MIRROR,           KERNEL_BACKGROUND_HIT,
+        KERNEL_SUN_TIMES,      KERNEL_TRUTH,      KERNEL_RADIOMETRY,       KERNEL_BAND_PLANES,
+        KERNEL_BAND_EMISSIVITY};
 
     for (size_t i = 0; i < sizeof kernel / sizeof *kernel && !*is_vain; i++)
         device_prepare(dev, kernel[i]);
@@ -124,9 +125,14 @@ static status set_temperatures(render *r)
 {
     status rc = STATUS_OK;
 
-    TRY(temperature_open(&r->shared.warmth, r->shared.dev, r->shared.s, r->shared.rays,
-                         r->shared.bodies, r->shared.tables.facets, r->shared.tables.facet,
-                         r->shared.tables.facet_count, r->suns));
+    TRY(temperature_open(&r->shared.warmth, r->shared.dev,
+                         &(temperature_scene){.s = r->shared.s,
+                                              .rays = r->shared.rays,
+                                              .dimming = r->shared.bodies,
+                                              .facets = r->shared.tables.facets,
+                                              .facet = r->shared.tables.facet,
+                                              .facet_count = r->shared.tables.facet_count,
+                                              .memory = r->suns}));
     end_stage(r, "temperatures");
 out:
     return rc;
@@ -344,7 +350,7 @@ static status sample_terms(const render *r, uint32_t sample, size_t count, float
 
     TRY(render_tile_open(&t, &r->shared, sample, 1, BAND_PLANE_PARTS));
     TRY(render_tile_compute(&t, &r->shared));
-    TRY(device_download(r->shared.dev, t.terms, 0, count * PIXEL_GROUP * sizeof *out, out));
+    TRY(device_download(r->shared.dev, t.terms, count * PIXEL_GROUP, out));
 out:
     render_tile_free(&t);
     return rc;
@@ -372,14 +378,14 @@ status render_pixel_day(render *r, uint32_t pixel, temperature_day *out)
 {
     status rc = STATUS_OK;
     camera_record camera = r->shared.camera;
-    device_memory hit = NULL;
+    hit_record_buffer hit = {0};
     hit_record met;
 
     *out = (temperature_day){0};
     camera.strata = 1;
-    TRY(device_allocate(r->shared.dev, &hit, sizeof met, NULL));
+    TRY(device_allocate(r->shared.dev, &hit, 1, NULL));
     TRY(ray_scene_primary(r->shared.rays, &camera, r->shared.frame.columns, pixel, 1, hit));
-    TRY(device_download(r->shared.dev, hit, 0, sizeof met, &met));
+    TRY(device_download(r->shared.dev, hit, 1, &met));
     if (met.facet != RECORD_NONE)
         TRY(temperature_day_of(r->shared.warmth, r->shared.rays, hit, out));
 out:

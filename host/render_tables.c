@@ -21,9 +21,9 @@ status render_tables_take_facets(render_tables *t, device *dev, const scene *s)
     for (size_t i = 0; i < t->facet_count; i++)
         ids[i] = i < real ? s->shape->facet_id[i] : RECORD_NONE;
     for (uint32_t i = 0; i < s->material_count; i++) materials[i] = s->materials[i].record;
-    TRY(device_allocate(dev, &t->facets, t->facet_count * sizeof *t->facet, t->facet));
-    TRY(device_allocate(dev, &t->facet_ids, t->facet_count * sizeof *ids, ids));
-    TRY(device_allocate(dev, &t->materials, s->material_count * sizeof *materials, materials));
+    TRY(device_allocate(dev, &t->facets, t->facet_count, t->facet));
+    TRY(device_allocate(dev, &t->facet_ids, t->facet_count, ids));
+    TRY(device_allocate(dev, &t->materials, s->material_count, materials));
 out:
     free(ids);
     free(materials);
@@ -55,11 +55,10 @@ out:
     return rc;
 }
 
-static status upload_emissivity(device_memory *out, device *dev, const scene *s, const float *rows,
+static status upload_emissivity(float_buffer *out, device *dev, const scene *s, const float *rows,
                                 const spectra *at)
 {
-    return device_allocate(
-        dev, out, (size_t)scene_emissivity_rows(s) * at->sample_count * sizeof *rows, rows);
+    return device_allocate(dev, out, (size_t)scene_emissivity_rows(s) * at->sample_count, rows);
 }
 
 /* The most that a material reflects into the hemisphere at any wavelength. */
@@ -86,8 +85,7 @@ status render_tables_take_blocks(render_tables *t, device *dev, const scene *s)
     TRY(spectra_coarsen(&blocks, t->knots->at));
     TRY(sample_emissivity(&rows, s, blocks));
     t->blocks.sample_count = blocks->sample_count;
-    TRY(device_allocate(dev, &t->blocks.rows,
-                        (size_t)blocks->row_count * blocks->sample_count * sizeof(float),
+    TRY(device_allocate(dev, &t->blocks.rows, (size_t)blocks->row_count * blocks->sample_count,
                         blocks->rows));
     TRY(upload_emissivity(&t->blocks.emissivity, dev, s, rows, blocks));
     t->reflectance = calloc(t->facet_count + 1, sizeof *t->reflectance);
@@ -117,13 +115,11 @@ static status take_knots(render_tables *t, device *dev, const scene *s, const bo
     NEED(picked, STATUS_MEMORY, "no memory for the emissivity of %u materials", s->material_count);
     knots_pick(k, emissivity_rows, rows, samples, picked);
     TRY(upload_emissivity(&t->knot_emissivity, dev, s, picked, k->at));
-    TRY(device_allocate(dev, &t->knot_rows,
-                        (size_t)k->at->row_count * k->at->sample_count * sizeof(float),
+    TRY(device_allocate(dev, &t->knot_rows, (size_t)k->at->row_count * k->at->sample_count,
                         k->at->rows));
     const size_t blocks = samples / SPECTRA_BLOCK;
-    TRY(device_allocate(dev, &t->knot_first, blocks * sizeof *k->first, k->first));
-    TRY(device_allocate(dev, &t->knot_share, blocks * k->span * SPECTRA_BLOCK * sizeof *k->share,
-                        k->share));
+    TRY(device_allocate(dev, &t->knot_first, blocks, k->first));
+    TRY(device_allocate(dev, &t->knot_share, blocks * k->span * SPECTRA_BLOCK, k->share));
 out:
     free(picked);
     return rc;
@@ -137,13 +133,21 @@ static status tabulate_bands(render_tables *t, device *dev, const scene *s)
     const size_t bands = s->band_count;
     const device_shape temperatures = {{TEMPERATURE_GROUPS, bands}, 4};
 
-    TRY(device_allocate(dev, &t->ln_radiance, bands * BAND_TEMPERATURES * sizeof(float), NULL));
-    TRY(device_allocate(dev, &t->band_emissivity, bands * rows * sizeof(float), NULL));
-    TRY(device_run(dev, "band_temperature", temperatures, ARG(samples), ARG(t->spectrum_rows),
-                   ARG(t->band_records), ARG(t->band_weights), ARG(t->ln_radiance)));
-    TRY(device_run(dev, "band_emissivity", shape2(bands, rows), ARG(samples), ARG(s->band_count),
-                   ARG(t->band_records), ARG(t->band_weights), ARG(t->emissivity_rows),
-                   ARG(t->band_emissivity)));
+    TRY(device_allocate(dev, &t->ln_radiance, bands * BAND_TEMPERATURES, NULL));
+    TRY(device_allocate(dev, &t->band_emissivity, bands * rows, NULL));
+    TRY(band_temperature_run(dev, temperatures,
+                             &(band_temperature_args){.sample_count = samples,
+                                                      .spectra = t->spectrum_rows,
+                                                      .bands = t->band_records,
+                                                      .weights = t->band_weights,
+                                                      .ln_radiance = t->ln_radiance}));
+    TRY(band_emissivity_run(dev, shape2(bands, rows),
+                            &(band_emissivity_args){.sample_count = samples,
+                                                    .band_count = s->band_count,
+                                                    .bands = t->band_records,
+                                                    .weights = t->band_weights,
+                                                    .emissivity = t->emissivity_rows,
+                                                    .band_emissivity = t->band_emissivity}));
 out:
     return rc;
 }
@@ -156,12 +160,9 @@ status render_tables_take_spectra(render_tables *t, device *dev, const scene *s,
 
     TRY(spectra_build(&t->bands, s->bands, s->band_count, s->air, scene_sums_points(s), s->thesis));
     TRY(device_allocate(dev, &t->spectrum_rows,
-                        (size_t)t->bands->row_count * t->bands->sample_count * sizeof(float),
-                        t->bands->rows));
-    TRY(device_allocate(dev, &t->band_records, s->band_count * sizeof(band_record),
-                        t->bands->bands));
-    TRY(device_allocate(dev, &t->band_weights, t->bands->weight_count * sizeof(float),
-                        t->bands->weight_um));
+                        (size_t)t->bands->row_count * t->bands->sample_count, t->bands->rows));
+    TRY(device_allocate(dev, &t->band_records, s->band_count, t->bands->bands));
+    TRY(device_allocate(dev, &t->band_weights, t->bands->weight_count, t->bands->weight_um));
     TRY(sample_emissivity(&emissivity_rows, s, t->bands));
     TRY(upload_emissivity(&t->emissivity_rows, dev, s, emissivity_rows, t->bands));
     if (!s->thesis) TRY(take_knots(t, dev, s, through, emissivity_rows));

@@ -13,14 +13,18 @@
 typedef struct render_tables {
     size_t facet_count;  /* with the ground's */
     facet_record *facet; /* shape (facet_count) */
-    device_memory facets, facet_ids, materials;
+    facet_record_buffer facets;
+    uint_buffer facet_ids;
+    material_record_buffer materials;
     spectra *bands;
-    device_memory spectrum_rows, emissivity_rows, extinction_rows, band_records, band_weights,
-        band_emissivity, ln_radiance;
+    float_buffer spectrum_rows, emissivity_rows, extinction_rows;
+    band_record_buffer band_records;
+    float_buffer band_weights, band_emissivity, ln_radiance;
     /* Exact mode: the same at knots and how samples lie between them, NULL where all samples are
      * knots; and over blocks of knots, as interreflection.h takes them. */
     knots *knots;
-    device_memory knot_rows, knot_emissivity, knot_first, knot_share;
+    float_buffer knot_rows, knot_emissivity, knot_share;
+    uint_buffer knot_first;
     interreflection_spectra blocks;
     float *reflectance; /* shape (facet_count): the most at any wavelength */
 } render_tables;

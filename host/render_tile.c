@@ -52,17 +52,17 @@ static status allocate_bands(render_tile_memory *t, const render_shared *r)
     status rc = STATUS_OK;
     const uint32_t wants = wants_of_samples(r, t->wants);
     const size_t row = band_plane_row(t->room);
-    const size_t group_bytes =
-        (size_t)band_plane_terms(wants) * r->frame.sample_count * PIXEL_GROUP * sizeof(float);
-    size_t groups = TERM_BYTES / group_bytes / GROUPS_TOGETHER * GROUPS_TOGETHER;
+    const size_t group_floats =
+        (size_t)band_plane_terms(wants) * r->frame.sample_count * PIXEL_GROUP;
+    size_t groups = TERM_BYTES / (group_floats * sizeof(float)) / GROUPS_TOGETHER * GROUPS_TOGETHER;
 
     if (groups < GROUPS_LEAST) groups = GROUPS_LEAST;
     if (groups > row / PIXEL_GROUP) groups = row / PIXEL_GROUP;
     t->groups_at_once = (uint32_t)groups;
-    TRY(device_allocate(r->dev, &t->terms, groups * group_bytes, NULL));
-    TRY(device_allocate(r->dev, &t->emissivities, row * 2 * sizeof(emissivity_record), NULL));
-    TRY(device_allocate(r->dev, &t->band_planes,
-                        r->s->band_count * band_plane_count(wants) * row * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &t->terms, groups * group_floats, NULL));
+    TRY(device_allocate(r->dev, &t->emissivities, row * 2, NULL));
+    TRY(device_allocate(r->dev, &t->band_planes, r->s->band_count * band_plane_count(wants) * row,
+                        NULL));
 out:
     return rc;
 }
@@ -72,10 +72,9 @@ static status allocate_bodies(render_tile_memory *t, const render_shared *r)
     status rc = STATUS_OK;
     const size_t n = t->room;
 
-    TRY(device_allocate(r->dev, &t->body_paths, n * TRANSMISSION_PATHS * sizeof(transmission_path),
-                        NULL));
-    TRY(device_allocate(r->dev, &t->direct, n * sizeof(float), NULL));
-    TRY(device_allocate(r->dev, &t->background_direct, n * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &t->body_paths, n * TRANSMISSION_PATHS, NULL));
+    TRY(device_allocate(r->dev, &t->direct, n, NULL));
+    TRY(device_allocate(r->dev, &t->background_direct, n, NULL));
 out:
     return rc;
 }
@@ -86,11 +85,10 @@ static status allocate_means(render_tile_memory *t, const render_shared *r)
     status rc = STATUS_OK;
     const size_t pixels = t->room / t->samples;
 
-    TRY(device_allocate(r->dev, &t->mean_truth_planes,
-                        pixels * (TRUTH_PLANES + SUN_PLANES) * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &t->mean_truth_planes, pixels * (TRUTH_PLANES + SUN_PLANES), NULL));
     TRY(device_allocate(r->dev, &t->mean_band_planes,
                         (size_t)band_plane_row((uint32_t)pixels) * r->s->band_count *
-                            band_plane_count(t->wants) * sizeof(float),
+                            band_plane_count(t->wants),
                         NULL));
 out:
     return rc;
@@ -101,26 +99,22 @@ static status allocate(render_tile_memory *t, const render_shared *r)
     status rc = STATUS_OK;
     const size_t n = t->room;
 
-    TRY(device_allocate(r->dev, &t->hit, n * sizeof(hit_record), NULL));
-    TRY(device_allocate(r->dev, &t->points.hit, n * sizeof(hit_record), NULL));
-    TRY(device_allocate(r->dev, &t->points.order, n * sizeof(uint32_t), NULL));
-    TRY(device_allocate(r->dev, &t->points.met,
-                        n * shape_factor_cell_count(r->grid) * sizeof(uint32_t), NULL));
-    TRY(device_allocate(r->dev, &t->lit, n * sizeof(float), NULL));
-    TRY(device_allocate(r->dev, &t->history,
-                        n * temperature_history_words(r->warmth) * sizeof(uint32_t), NULL));
-    TRY(device_allocate(r->dev, &t->temperature_k, n * sizeof(float), NULL));
-    TRY(device_allocate(r->dev, &t->background, n * sizeof(background_record), NULL));
-    TRY(device_allocate(r->dev, &t->background_hit, n * sizeof(hit_record), NULL));
-    TRY(device_allocate(r->dev, &t->background_lit, n * sizeof(float), NULL));
+    TRY(device_allocate(r->dev, &t->hit, n, NULL));
+    TRY(device_allocate(r->dev, &t->points.hit, n, NULL));
+    TRY(device_allocate(r->dev, &t->points.order, n, NULL));
+    TRY(device_allocate(r->dev, &t->points.met, n * shape_factor_cell_count(r->grid), NULL));
+    TRY(device_allocate(r->dev, &t->lit, n, NULL));
+    TRY(device_allocate(r->dev, &t->history, n * temperature_history_words(r->warmth), NULL));
+    TRY(device_allocate(r->dev, &t->temperature_k, n, NULL));
+    TRY(device_allocate(r->dev, &t->background, n, NULL));
+    TRY(device_allocate(r->dev, &t->background_hit, n, NULL));
+    TRY(device_allocate(r->dev, &t->background_lit, n, NULL));
     if (has_incident(r))
-        TRY(device_allocate(r->dev, &t->incident, n * 2 * r->frame.knot_count * sizeof(float),
-                            NULL));
+        TRY(device_allocate(r->dev, &t->incident, n * 2 * r->frame.knot_count, NULL));
     if (has_incident(r) && scene_is_rough(r->s))
-        TRY(device_allocate(r->dev, &t->gloss, n * LOBE_RAYS * sizeof(uint32_t), NULL));
+        TRY(device_allocate(r->dev, &t->gloss, n * LOBE_RAYS, NULL));
     if (r->bodies) TRY(allocate_bodies(t, r));
-    TRY(device_allocate(r->dev, &t->truth_planes, n * (TRUTH_PLANES + SUN_PLANES) * sizeof(float),
-                        NULL));
+    TRY(device_allocate(r->dev, &t->truth_planes, n * (TRUTH_PLANES + SUN_PLANES), NULL));
     TRY(allocate_bands(t, r));
     if (t->samples > 1) TRY(allocate_means(t, r));
 out:
@@ -177,23 +171,31 @@ void render_tile_free(render_tile_memory *t)
 static status trace(const render_tile_memory *t, const render_shared *r)
 {
     status rc = STATUS_OK;
-    const device_memory facet_k = temperature_of_facets(r->warmth);
+    const float_buffer facet_k = temperature_of_facets(r->warmth);
     const shape_factor_tables tables = {r->tables.facets, facet_k, r->tables.materials};
-    const device_memory nodes = ray_scene_nodes(r->rays), blocks = ray_scene_blocks(r->rays);
-    const world_record world = ray_scene_world(r->rays);
     const point_tile where = {t->first, t->count, r->frame.columns * t->samples};
 
     TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count, t->hit));
-    TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->hit, t->lit));
+    TRY(sunlight_cast(r->rays, r->frame.sun, t->count, t->hit, t->lit));
     TRY(point_order_run(r->dev, t->hit, r->tables.facet, &where, t->points.order, t->points.hit));
     TRY(shape_factor_run(r->is_coarse ? r->coarse_grid : r->grid, r->rays, &tables,
                          has_incident(r) ? r->frame.sun : NULL, &t->points, t->background));
-    TRY(device_run(r->dev, "mirror", shape1(t->count), ARG(t->count), ARG(r->camera), ARG(world),
-                   ARG(nodes), ARG(blocks), ARG(r->tables.facets), ARG(facet_k),
-                   ARG(r->tables.materials), ARG(t->hit), ARG(t->background)));
-    TRY(device_run(r->dev, "background_hit", shape1(t->count), ARG(t->count), ARG(t->background),
-                   ARG(t->background_hit)));
-    TRY(sunlight_run(r->rays, r->frame.sun, t->count, t->background_hit, t->background_lit));
+    TRY(mirror_run(r->dev, shape1(t->count),
+                   &(mirror_args){.count = t->count,
+                                  .camera = r->camera,
+                                  .world = ray_scene_world(r->rays),
+                                  .nodes = ray_scene_nodes(r->rays),
+                                  .blocks = ray_scene_blocks(r->rays),
+                                  .facet = r->tables.facets,
+                                  .temperature_k = facet_k,
+                                  .material = r->tables.materials,
+                                  .hit = t->hit,
+                                  .background = t->background}));
+    TRY(background_hit_run(r->dev, shape1(t->count),
+                           &(background_hit_args){.count = t->count,
+                                                  .background = t->background,
+                                                  .hit = t->background_hit}));
+    TRY(sunlight_cast(r->rays, r->frame.sun, t->count, t->background_hit, t->background_lit));
 out:
     return rc;
 }
@@ -203,21 +205,33 @@ static status cross_bodies(const render_tile_memory *t, const render_shared *r,
                            const radiometry_record *frame)
 {
     status rc = STATUS_OK;
-    const world_record world = ray_scene_world(r->rays);
-    const crossing_world around = bodies_world(r->bodies);
-    const device_memory nodes = bodies_nodes(r->bodies), blocks = bodies_blocks(r->bodies);
-    const device_memory medium = bodies_medium(r->bodies), levels = bodies_levels(r->bodies);
-    const device_memory facet_k = temperature_of_facets(r->warmth);
 
     if (bodies_scatter(r->bodies))
-        TRY(device_run(r->dev, "cloud_ground", shape1(frame->sample_count), ARG(*frame), ARG(world),
-                       ARG(r->tables.facets), ARG(r->tables.materials), ARG(facet_k),
-                       ARG(r->tables.spectrum_rows), ARG(r->tables.emissivity_rows),
-                       ARG(r->tables.extinction_rows)));
-    TRY(device_run(r->dev, "crossing", shape1(t->count), ARG(*frame), ARG(r->camera), ARG(world),
-                   ARG(around), ARG(nodes), ARG(blocks), ARG(medium), ARG(levels), ARG(t->hit),
-                   ARG(t->background_hit), ARG(t->lit), ARG(t->background_lit), ARG(t->body_paths),
-                   ARG(t->direct), ARG(t->background_direct)));
+        TRY(cloud_ground_run(r->dev, shape1(frame->sample_count),
+                             &(cloud_ground_args){.frame = *frame,
+                                                  .world = ray_scene_world(r->rays),
+                                                  .facets = r->tables.facets,
+                                                  .materials = r->tables.materials,
+                                                  .temperature_k = temperature_of_facets(r->warmth),
+                                                  .spectra = r->tables.spectrum_rows,
+                                                  .emissivity = r->tables.emissivity_rows,
+                                                  .extinction = r->tables.extinction_rows}));
+    TRY(crossing_run(r->dev, shape1(t->count),
+                     &(crossing_args){.frame = *frame,
+                                      .camera = r->camera,
+                                      .world = ray_scene_world(r->rays),
+                                      .bodies = bodies_world(r->bodies),
+                                      .nodes = bodies_nodes(r->bodies),
+                                      .blocks = bodies_blocks(r->bodies),
+                                      .medium = bodies_medium(r->bodies),
+                                      .level = bodies_levels(r->bodies),
+                                      .hit = t->hit,
+                                      .background_hit = t->background_hit,
+                                      .lit = t->lit,
+                                      .background_lit = t->background_lit,
+                                      .paths = t->body_paths,
+                                      .direct = t->direct,
+                                      .background_direct = t->background_direct}));
 out:
     return rc;
 }
@@ -226,12 +240,16 @@ out:
 static status cast_gloss(const render_tile_memory *t, const render_shared *r,
                          const radiometry_record *frame)
 {
-    const world_record world = ray_scene_world(r->rays);
-    const device_memory nodes = ray_scene_nodes(r->rays), blocks = ray_scene_blocks(r->rays);
-
-    return device_run(r->dev, "gloss", shape2(t->count, LOBE_RAYS), ARG(*frame), ARG(r->camera),
-                      ARG(world), ARG(nodes), ARG(blocks), ARG(r->tables.facets),
-                      ARG(r->tables.materials), ARG(t->hit), ARG(t->gloss));
+    return gloss_run(r->dev, shape2(t->count, LOBE_RAYS),
+                     &(gloss_args){.frame = *frame,
+                                   .camera = r->camera,
+                                   .world = ray_scene_world(r->rays),
+                                   .nodes = ray_scene_nodes(r->rays),
+                                   .blocks = ray_scene_blocks(r->rays),
+                                   .facets = r->tables.facets,
+                                   .materials = r->tables.materials,
+                                   .hit = t->hit,
+                                   .out_met = t->gloss});
 }
 
 /* Spectra, and the planes of the bands from them. */
@@ -246,17 +264,35 @@ static status integrate(const render_tile_memory *t, const render_shared *r,
         const uint32_t left = groups - frame.first_group;
         const uint32_t some = left < t->groups_at_once ? left : t->groups_at_once;
         const device_shape shape = {{some, 1}, GROUPS_TOGETHER};
-        TRY(device_run(r->dev, "radiometry", shape, ARG(frame), ARG(r->air), ARG(r->camera),
-                       ARG(r->tables.facets), ARG(r->tables.materials), ARG(t->temperature_k),
-                       ARG(t->hit), ARG(t->background), ARG(t->lit), ARG(t->background_lit),
-                       ARG(r->tables.spectrum_rows), ARG(r->tables.emissivity_rows),
-                       ARG(t->incident), ARG(r->tables.knot_first), ARG(r->tables.knot_share),
-                       ARG(r->tables.extinction_rows), ARG(t->body_paths), ARG(t->emissivities),
-                       ARG(t->terms)));
-        TRY(device_run(r->dev, "band_planes", shape, ARG(frame), ARG(r->tables.band_records),
-                       ARG(r->tables.band_weights), ARG(r->tables.band_emissivity),
-                       ARG(r->tables.ln_radiance), ARG(t->emissivities), ARG(t->terms),
-                       ARG(t->band_planes)));
+        TRY(radiometry_run(r->dev, shape,
+                           &(radiometry_args){.frame = frame,
+                                              .air = r->air,
+                                              .camera = r->camera,
+                                              .facets = r->tables.facets,
+                                              .materials = r->tables.materials,
+                                              .temperature_k = t->temperature_k,
+                                              .hit = t->hit,
+                                              .background = t->background,
+                                              .sunlit = t->lit,
+                                              .background_sunlit = t->background_lit,
+                                              .spectra = r->tables.spectrum_rows,
+                                              .emissivity = r->tables.emissivity_rows,
+                                              .incident = t->incident,
+                                              .knot_first = r->tables.knot_first,
+                                              .knot_share = r->tables.knot_share,
+                                              .extinction = r->tables.extinction_rows,
+                                              .bodies = t->body_paths,
+                                              .emissivities = t->emissivities,
+                                              .terms = t->terms}));
+        TRY(band_planes_run(r->dev, shape,
+                            &(band_planes_args){.frame = frame,
+                                                .bands = r->tables.band_records,
+                                                .weights = r->tables.band_weights,
+                                                .band_emissivity = r->tables.band_emissivity,
+                                                .ln_radiance = r->tables.ln_radiance,
+                                                .emissivities = t->emissivities,
+                                                .terms = t->terms,
+                                                .planes = t->band_planes}));
     }
 out:
     return rc;
@@ -271,15 +307,22 @@ static status colour(const render_tile_memory *t, const render_shared *r)
     frame.pixel_count = t->count;
     frame.wants = wants_of_samples(r, t->wants);
     if (r->bodies) TRY(cross_bodies(t, r, &frame));
-    const device_memory direct = r->bodies ? t->direct : t->lit;
-    const device_memory behind = r->bodies ? t->background_direct : t->background_lit;
-    TRY(device_run(r->dev, "truth", shape1(t->count), ARG(frame), ARG(r->camera),
-                   ARG(r->tables.facets), ARG(r->tables.facet_ids), ARG(r->tables.materials),
-                   ARG(t->temperature_k), ARG(t->hit), ARG(t->background), ARG(direct), ARG(behind),
-                   ARG(t->truth_planes)));
+    TRY(truth_run(
+        r->dev, shape1(t->count),
+        &(truth_args){.frame = frame,
+                      .camera = r->camera,
+                      .facets = r->tables.facets,
+                      .facet_id = r->tables.facet_ids,
+                      .materials = r->tables.materials,
+                      .temperature_k = t->temperature_k,
+                      .hit = t->hit,
+                      .background = t->background,
+                      .sunlit = r->bodies ? t->direct : t->lit,
+                      .background_sunlit = r->bodies ? t->background_direct : t->background_lit,
+                      .planes = t->truth_planes}));
     if (has_incident(r)) {
         TRY(interreflection_set_sun(r->lights, &r->frame));
-        if (t->gloss) TRY(cast_gloss(t, r, &frame));
+        if (t->gloss.memory) TRY(cast_gloss(t, r, &frame));
         const bool all_are_knots = frame.knot_span == 0;
         radiometry_record at_knots = frame;
         at_knots.sample_count = frame.knot_count;
@@ -298,7 +341,7 @@ static status colour(const render_tile_memory *t, const render_shared *r)
             .bodies = r->bodies,
             .extinction = r->tables.extinction_rows,
         };
-        TRY(incident_run(r->around, &pixels, t->incident));
+        TRY(incident_compute(r->around, &pixels, t->incident));
     }
     TRY(integrate(t, r, frame));
 out:
@@ -309,13 +352,17 @@ status render_tile_compute(const render_tile_memory *t, const render_shared *r)
 {
     status rc = STATUS_OK;
 
+    const temperature_pixels pixels = {.count = t->count,
+                                       .hit = t->hit,
+                                       .order = t->points.order,
+                                       .history = t->history,
+                                       .temperature_k = t->temperature_k,
+                                       .first_plane = TRUTH_PLANES,
+                                       .planes = t->truth_planes};
+
     TRY(trace(t, r));
-    if (r->is_coarse)
-        TRY(temperature_of_hits(r->warmth, t->count, t->hit, TRUTH_PLANES, t->temperature_k,
-                                t->truth_planes));
-    else
-        TRY(temperature_of_pixels(r->warmth, r->rays, t->count, t->hit, t->points.order,
-                                  TRUTH_PLANES, t->history, t->temperature_k, t->truth_planes));
+    TRY(r->is_coarse ? temperature_of_hits(r->warmth, &pixels)
+                     : temperature_of_pixels(r->warmth, r->rays, &pixels));
     TRY(colour(t, r));
 out:
     return rc;
@@ -325,14 +372,23 @@ status render_tile_average(const render_tile_memory *t, const render_shared *r,
                            uint32_t categorical)
 {
     status rc = STATUS_OK;
-    const uint32_t pixels = t->count / t->samples, has = wants_of_samples(r, t->wants);
-    const uint32_t truth_count = TRUTH_PLANES + SUN_PLANES, band_count = r->s->band_count;
+    const uint32_t pixels = t->count / t->samples;
 
-    TRY(device_run(r->dev, "truth_mean", shape2(pixels, truth_count), ARG(pixels), ARG(t->samples),
-                   ARG(categorical), ARG(t->truth_planes), ARG(t->mean_truth_planes)));
-    TRY(device_run(r->dev, "band_mean", shape2(pixels, band_count), ARG(pixels), ARG(t->samples),
-                   ARG(t->wants), ARG(has), ARG(r->tables.band_records), ARG(r->tables.ln_radiance),
-                   ARG(t->band_planes), ARG(t->mean_band_planes)));
+    TRY(truth_mean_run(r->dev, shape2(pixels, TRUTH_PLANES + SUN_PLANES),
+                       &(truth_mean_args){.pixel_count = pixels,
+                                          .sample_count = t->samples,
+                                          .categorical = categorical,
+                                          .samples = t->truth_planes,
+                                          .planes = t->mean_truth_planes}));
+    TRY(band_mean_run(r->dev, shape2(pixels, r->s->band_count),
+                      &(band_mean_args){.pixel_count = pixels,
+                                        .sample_count = t->samples,
+                                        .wants = t->wants,
+                                        .has = wants_of_samples(r, t->wants),
+                                        .bands = r->tables.band_records,
+                                        .ln_radiance = r->tables.ln_radiance,
+                                        .samples = t->band_planes,
+                                        .planes = t->mean_band_planes}));
 out:
     return rc;
 }
@@ -374,16 +430,15 @@ status render_tile_store(const render_tile_memory *t, const render_shared *r,
                          const render_store *store)
 {
     status rc = STATUS_OK;
-    const device_memory truth = t->samples > 1 ? t->mean_truth_planes : t->truth_planes;
-    const device_memory bands = t->samples > 1 ? t->mean_band_planes : t->band_planes;
+    const float_buffer truth = t->samples > 1 ? t->mean_truth_planes : t->truth_planes;
+    const float_buffer bands = t->samples > 1 ? t->mean_band_planes : t->band_planes;
     tile_view v = {
         .first = t->first / t->samples, .count = t->count / t->samples, .wants = t->wants};
     const size_t truth_length = (size_t)(TRUTH_PLANES + SUN_PLANES) * v.count;
     const size_t rows = (size_t)r->s->band_count * band_plane_count(t->wants);
 
-    TRY(device_map(r->dev, truth, truth_length * sizeof(float), (const void **)&v.truth));
-    TRY(device_map(r->dev, bands, rows * band_plane_row(v.count) * sizeof(float),
-                   (const void **)&v.bands));
+    TRY(device_map(r->dev, truth, truth_length, &v.truth));
+    TRY(device_map(r->dev, bands, rows * band_plane_row(v.count), &v.bands));
     TRY(store_planes(&v, planes, plane_count, values, store));
 out:
     device_unmap(r->dev, bands, v.bands);

@@ -13,7 +13,7 @@ enum { THIN = 6, THINNED_LEAST = 2 };
 static const double radian = 0.017453292519943295;
 
 struct shape_factor_grid {
-    device_memory cell; /* shape (cell_count, 4): upslope, across, normal, weight */
+    float_buffer cell; /* shape (cell_count, 4): upslope, across, normal, weight */
     uint32_t cell_count, azimuths;
 };
 
@@ -117,7 +117,7 @@ status shape_factor_open(shape_factor_grid **out, device *dev, shape_factor_read
     cell = malloc(grid->cell_count * sizeof *cell);
     NEED(cell, STATUS_MEMORY, "no memory for a hemisphere of %u cells", grid->cell_count);
     fill_cells(cell, reading, rings, azimuths);
-    TRY(device_allocate(dev, &grid->cell, grid->cell_count * sizeof *cell, cell));
+    TRY(device_allocate(dev, &grid->cell, 4 * grid->cell_count, cell[0]));
     *out = grid;
     grid = NULL;
 out:
@@ -142,13 +142,13 @@ static status open_some(shape_factor_grid **out, device *dev, const shape_factor
     float(*cell)[4] = malloc(grid->cell_count * sizeof *cell);
 
     NEED(some && cell, STATUS_MEMORY, "no memory for a hemisphere");
-    TRY(device_download(dev, grid->cell, 0, grid->cell_count * sizeof *cell, cell));
+    TRY(device_download(dev, grid->cell, 4 * grid->cell_count, cell[0]));
     for (uint32_t i = 0; i < grid->cell_count; i++) {
         if (weighs[i] == 0.0f) continue;
         memmove(cell[some->cell_count], cell[i], sizeof *cell);
         cell[some->cell_count++][3] *= weighs[i];
     }
-    TRY(device_allocate(dev, &some->cell, some->cell_count * sizeof *cell, cell));
+    TRY(device_allocate(dev, &some->cell, 4 * some->cell_count, cell[0]));
     *out = some;
     some = NULL;
 out:
@@ -201,7 +201,7 @@ uint32_t shape_factor_cell_count(const shape_factor_grid *grid)
     return grid->cell_count;
 }
 
-device_memory shape_factor_cells(const shape_factor_grid *grid)
+float_buffer shape_factor_cells(const shape_factor_grid *grid)
 {
     return grid->cell;
 }
@@ -211,32 +211,46 @@ status shape_factor_trace(const shape_factor_grid *grid, const ray_scene *scene,
 {
     static const float nowhere[3];
     const float *towards = sun ? sun : nowhere;
-    const world_record world = ray_scene_world(scene);
-    const device_memory nodes = ray_scene_nodes(scene), blocks = ray_scene_blocks(scene);
     device *dev = ray_scene_device(scene);
     const uint32_t at_once = device_describe(dev)->ray_lanes == 1 ? 1 : CELLS_AT_ONCE;
     const uint32_t cells = (grid->cell_count + at_once - 1) / at_once;
 
-    return device_run(dev, "hemisphere", device_bundle_shape(dev, points->count, cells),
-                      ARG(points->count), ARG(grid->cell_count), ARG(towards[0]), ARG(towards[1]),
-                      ARG(towards[2]), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
-                      ARG(points->hit), ARG(points->met));
+    return hemisphere_run(dev, device_bundle_shape(dev, points->count, cells),
+                          &(hemisphere_args){.count = points->count,
+                                             .cell_count = grid->cell_count,
+                                             .sun_x = towards[0],
+                                             .sun_y = towards[1],
+                                             .sun_z = towards[2],
+                                             .world = ray_scene_world(scene),
+                                             .nodes = ray_scene_nodes(scene),
+                                             .blocks = ray_scene_blocks(scene),
+                                             .cell = grid->cell,
+                                             .hit = points->hit,
+                                             .out_met = points->met});
 }
 
 status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
                         const shape_factor_tables *tables, const float *sun,
-                        const shape_factor_points *points, device_memory out_background)
+                        const shape_factor_points *points, background_record_buffer out_background)
 {
     status rc = STATUS_OK;
-    const world_record world = ray_scene_world(scene);
-    const device_memory nodes = ray_scene_nodes(scene), blocks = ray_scene_blocks(scene);
+    device *dev = ray_scene_device(scene);
 
     TRY(shape_factor_trace(grid, scene, sun, points));
-    TRY(device_run(ray_scene_device(scene), "background",
-                   device_ray_shape(ray_scene_device(scene), points->count, 1), ARG(points->count),
-                   ARG(grid->cell_count), ARG(world), ARG(nodes), ARG(blocks), ARG(grid->cell),
-                   ARG(tables->facet), ARG(tables->temperature_k), ARG(tables->material),
-                   ARG(points->hit), ARG(points->met), ARG(points->order), ARG(out_background)));
+    TRY(background_run(dev, device_ray_shape(dev, points->count, 1),
+                       &(background_args){.count = points->count,
+                                          .cell_count = grid->cell_count,
+                                          .world = ray_scene_world(scene),
+                                          .nodes = ray_scene_nodes(scene),
+                                          .blocks = ray_scene_blocks(scene),
+                                          .cell = grid->cell,
+                                          .facet = tables->facet,
+                                          .temperature_k = tables->temperature_k,
+                                          .material = tables->material,
+                                          .hit = points->hit,
+                                          .met = points->met,
+                                          .order = points->order,
+                                          .out = out_background}));
 out:
     return rc;
 }

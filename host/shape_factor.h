@@ -45,18 +45,18 @@ void shape_factor_free(shape_factor_grid *grid);
 
 /* What the rays may meet; all three are read at the ground's facet too. */
 typedef struct shape_factor_tables {
-    device_memory facet;         /* facet_record */
-    device_memory temperature_k; /* float, per facet */
-    device_memory material;      /* material_record */
+    facet_record_buffer facet;
+    float_buffer temperature_k; /* per facet */
+    material_record_buffer material;
 } shape_factor_tables;
 
 /* What one run over points works with. */
 typedef struct shape_factor_points {
     uint32_t count;
-    device_memory hit; /* hit_record, shape (count); only point, facet and normal are read */
-    device_memory met; /* uint32, shape (shape_factor_cell_count, count): written, hemisphere.cl */
-    device_memory order; /* uint32, shape (count): which point of what is computed each of these is;
-                          * NULL: the same */
+    hit_record_buffer hit; /* shape (count); only point, facet and normal are read */
+    uint_buffer met;       /* shape (shape_factor_cell_count, count): written, hemisphere.cl */
+    uint_buffer order; /* shape (count): which point of what is computed each of these is; NULL: the
+                        * same */
 } shape_factor_points;
 
 /* Casts the rays of the hemisphere above every point and tells what they meet; the rest as below. */
@@ -67,16 +67,16 @@ status shape_factor_trace(const shape_factor_grid *grid, const ray_scene *scene,
  * scene sees the sky, or the ground plane if that is there and the ray goes down.
  *   sun              unit vector towards the sun: facets met are marked where it reaches them; NULL:
  *                    nobody asks
- *   out_background   background_record, shape (count). Points without a facet get factor 1 and no
+ *   out_background   shape (count). Points without a facet get factor 1 and no
  *                    background. Of equally common materials the lowest number is taken; at most
  *                    256 materials are counted at a point */
 status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
                         const shape_factor_tables *tables, const float *sun,
-                        const shape_factor_points *points, device_memory out_background);
+                        const shape_factor_points *points, background_record_buffer out_background);
 
 uint32_t shape_factor_cell_count(const shape_factor_grid *grid);
 
-/* The grid on the device: float, shape (cell_count, 4), see hemisphere.cl. */
-device_memory shape_factor_cells(const shape_factor_grid *grid);
+/* The grid on the device: shape (cell_count, 4), see hemisphere.cl. */
+float_buffer shape_factor_cells(const shape_factor_grid *grid);
 
 #endif

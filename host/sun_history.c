@@ -13,7 +13,7 @@ struct sun_history {
     const bodies *dimming;
     sun_memory *memory; /* NULL: none */
     float (*suns)[4];   /* shape (32 words, 4) */
-    device_memory sun;  /* the same */
+    float_buffer sun;   /* the same */
     long last;
     double last_s;
 };
@@ -64,7 +64,7 @@ status sun_history_open(sun_history **out, device *dev, const site *place, doubl
     history->last = (long)ceil((place->time_s - origin_s) / step_s - 1e-6);
     history->last_s = origin_s + (double)history->last * step_s;
     set_suns(history->suns, &history->day, place, origin_s, step_s, history->last);
-    TRY(device_allocate(dev, &history->sun, slots * sizeof *history->suns, history->suns));
+    TRY(device_allocate(dev, &history->sun, 4 * slots, history->suns[0]));
     *out = history;
     history = NULL;
 out:
@@ -97,28 +97,37 @@ uint32_t sun_history_words(const sun_history *history)
 }
 
 /* Casts the rays towards the suns of a table; slots without a sun get no bit. */
-static status trace(const sun_history *history, const ray_scene *scene, device_memory facets,
-                    uint32_t count, device_memory sun, device_memory hit, device_memory order,
-                    device_memory out_lit)
+static status trace(const sun_history *history, const ray_scene *scene, const sun_points *points,
+                    float_buffer sun, uint_buffer out_lit)
 {
     status rc = STATUS_OK;
-    const world_record world = ray_scene_world(scene);
-    const device_memory nodes = ray_scene_nodes(scene), blocks = ray_scene_blocks(scene);
+    const uint32_t count = points->count, words = history->day.word_count;
+    const bodies *dimming = history->dimming;
 
-    TRY(device_run(history->dev, "sun_history",
-                   device_bundle_shape(history->dev, count, history->day.word_count), ARG(count),
-                   ARG(history->day), ARG(world), ARG(nodes), ARG(blocks), ARG(facets), ARG(sun),
-                   ARG(hit), ARG(order), ARG(out_lit)));
-    if (!history->dimming) goto out;
-    const crossing_world around = bodies_world(history->dimming);
-    const device_memory inner = bodies_nodes(history->dimming);
-    const device_memory leaves = bodies_blocks(history->dimming);
-    const device_memory medium = bodies_medium(history->dimming);
-    const device_memory levels = bodies_levels(history->dimming);
-    TRY(device_run(history->dev, "sun_share",
-                   shape2(count, SUN_HISTORY_SHARES * history->day.word_count), ARG(count),
-                   ARG(history->day), ARG(world), ARG(around), ARG(inner), ARG(leaves), ARG(medium),
-                   ARG(levels), ARG(sun), ARG(hit), ARG(out_lit)));
+    TRY(sun_history_run(history->dev, device_bundle_shape(history->dev, count, words),
+                        &(sun_history_args){.count = count,
+                                            .day = history->day,
+                                            .world = ray_scene_world(scene),
+                                            .nodes = ray_scene_nodes(scene),
+                                            .blocks = ray_scene_blocks(scene),
+                                            .facets = points->facets,
+                                            .sun = sun,
+                                            .hit = points->hit,
+                                            .order = points->order,
+                                            .lit = out_lit}));
+    if (!dimming) goto out;
+    TRY(sun_share_run(history->dev, shape2(count, SUN_HISTORY_SHARES * words),
+                      &(sun_share_args){.count = count,
+                                        .day = history->day,
+                                        .world = ray_scene_world(scene),
+                                        .bodies = bodies_world(dimming),
+                                        .nodes = bodies_nodes(dimming),
+                                        .blocks = bodies_blocks(dimming),
+                                        .medium = bodies_medium(dimming),
+                                        .level = bodies_levels(dimming),
+                                        .sun = sun,
+                                        .hit = points->hit,
+                                        .lit = out_lit}));
 out:
     return rc;
 }
@@ -134,7 +143,7 @@ static long step_of(const sun_history *history, uint32_t slot, long last)
 /* Suns of the steps that a day which ended with step `from` did not have. Sets the bits and bytes of
  * their slots too.
  *   out_mask   shape (stride) */
-static status take_new_suns(const sun_history *history, long from, device_memory *out_sun,
+static status take_new_suns(const sun_history *history, long from, float_buffer *out_sun,
                             uint32_t *out_mask)
 {
     status rc = STATUS_OK;
@@ -150,30 +159,28 @@ static status take_new_suns(const sun_history *history, long from, device_memory
         out_mask[slot / 32] |= 1u << (slot % 32);
         if (history->dimming) out_mask[day->word_count + slot / 4] |= 255u << (slot % 4 * 8);
     }
-    TRY(device_allocate(history->dev, out_sun, slots * sizeof *sun, sun));
+    TRY(device_allocate(history->dev, out_sun, 4 * slots, sun[0]));
 out:
     free(sun);
     return rc;
 }
 
 /* Traces what an entry does not know yet, and brings it and out_lit up to date. */
-static status trace_new(const sun_history *history, const ray_scene *scene, device_memory facets,
-                        uint32_t count, device_memory hit, device_memory order,
-                        sun_memory_entry *entry, device_memory out_lit)
+static status trace_new(const sun_history *history, const ray_scene *scene,
+                        const sun_points *points, sun_memory_entry *entry, uint_buffer out_lit)
 {
     status rc = STATUS_OK;
     const uint32_t stride = history->day.stride;
-    const size_t bytes = (size_t)count * stride * sizeof(uint32_t);
-    uint32_t *mask = malloc(stride * sizeof *mask), *lit = malloc(bytes);
-    device_memory sun = NULL;
+    const size_t words = (size_t)points->count * stride;
+    uint32_t *mask = malloc(stride * sizeof *mask), *lit = malloc(words * sizeof *lit);
+    float_buffer sun = {0};
 
-    NEED(mask && lit, STATUS_MEMORY, "no memory for the sun's day of %u points", count);
+    NEED(mask && lit, STATUS_MEMORY, "no memory for the sun's day of %u points", points->count);
     TRY(take_new_suns(history, entry->last, &sun, mask));
-    TRY(trace(history, scene, facets, count, sun, hit, order, out_lit));
-    TRY(device_download(history->dev, out_lit, 0, bytes, lit));
-    for (size_t i = 0; i < (size_t)count * stride; i++)
-        entry->lit[i] = (entry->lit[i] & ~mask[i % stride]) | lit[i];
-    TRY(device_upload(history->dev, out_lit, 0, bytes, entry->lit));
+    TRY(trace(history, scene, points, sun, out_lit));
+    TRY(device_download(history->dev, out_lit, words, lit));
+    for (size_t i = 0; i < words; i++) entry->lit[i] = (entry->lit[i] & ~mask[i % stride]) | lit[i];
+    TRY(device_upload(history->dev, out_lit, words, entry->lit));
 out:
     device_release(sun);
     free(lit);
@@ -182,22 +189,22 @@ out:
 }
 
 static status trace_remembered(const sun_history *history, const ray_scene *scene,
-                               device_memory facets, uint32_t count, device_memory hit,
-                               device_memory order, device_memory out_lit)
+                               const sun_points *points, uint_buffer out_lit)
 {
     status rc = STATUS_OK;
-    const size_t bytes = (size_t)count * history->day.stride * sizeof(uint32_t);
+    const uint32_t count = points->count;
     hit_record *met = malloc(count * sizeof *met);
     sun_memory_entry *entry;
 
     NEED(met, STATUS_MEMORY, "no memory for %u points", count);
-    TRY(device_download(history->dev, hit, 0, count * sizeof *met, met));
+    TRY(device_download(history->dev, points->hit, count, met));
     TRY(sun_memory_find(history->memory, met, count, history->day.stride, &entry));
     if (entry->last == SUN_MEMORY_NOTHING) {
-        TRY(trace(history, scene, facets, count, history->sun, hit, order, out_lit));
-        TRY(device_download(history->dev, out_lit, 0, bytes, entry->lit));
+        TRY(trace(history, scene, points, history->sun, out_lit));
+        TRY(device_download(history->dev, out_lit, (size_t)count * history->day.stride,
+                            entry->lit));
     } else {
-        TRY(trace_new(history, scene, facets, count, hit, order, entry, out_lit));
+        TRY(trace_new(history, scene, points, entry, out_lit));
     }
     entry->last = history->last;
 out:
@@ -205,18 +212,21 @@ out:
     return rc;
 }
 
-status sun_history_trace(const sun_history *history, const ray_scene *scene, device_memory facets,
-                         uint32_t count, device_memory hit, device_memory order,
-                         device_memory out_lit)
+status sun_history_trace(const sun_history *history, const ray_scene *scene,
+                         const sun_points *points, uint_buffer out_lit)
 {
-    if (history->memory)
-        return trace_remembered(history, scene, facets, count, hit, order, out_lit);
-    return trace(history, scene, facets, count, history->sun, hit, order, out_lit);
+    if (history->memory) return trace_remembered(history, scene, points, out_lit);
+    return trace(history, scene, points, history->sun, out_lit);
 }
 
 status sun_history_times(const sun_history *history, uint32_t count, uint32_t first_plane,
-                         device_memory hit, device_memory lit, device_memory out_planes)
+                         hit_record_buffer hit, uint_buffer lit, float_buffer out_planes)
 {
-    return device_run(history->dev, "sun_times", shape1(count), ARG(count), ARG(first_plane),
-                      ARG(history->day), ARG(hit), ARG(lit), ARG(out_planes));
+    return sun_times_run(history->dev, shape1(count),
+                         &(sun_times_args){.count = count,
+                                           .first_plane = first_plane,
+                                           .day = history->day,
+                                           .hit = hit,
+                                           .lit = lit,
+                                           .planes = out_planes});
 }

@@ -30,21 +30,25 @@ long sun_history_last(const sun_history *history, double *out_time_s);
 /* 32-bit words that hold the bits, and shares, of a point. */
 uint32_t sun_history_words(const sun_history *history);
 
+/* The points whose day is wanted. */
+typedef struct sun_points {
+    uint32_t count;
+    facet_record_buffer facets; /* the ground's too */
+    hit_record_buffer hit;      /* shape (count) */
+    uint_buffer order; /* shape (count): which points are looked at side by side, see point_order.h;
+                        * NULL: as they stand. No bit depends on it */
+} sun_points;
+
 /* Casts the rays.
- *   facets    facet_record, the ground's too
- *   hit       hit_record, shape (count)
- *   order     uint32, shape (count): which points are looked at side by side, see point_order.h; NULL:
- *             as they stand. No bit depends on it
- *   out_lit   uint32, shape (count, words): 1 where the sun reaches the outward side of the facet,
+ *   out_lit   shape (count, words): 1 where the sun reaches the outward side of the facet,
  *             or either side of a two-sided one. The ground plane is never in shadow (assumed) */
-status sun_history_trace(const sun_history *history, const ray_scene *scene, device_memory facets,
-                         uint32_t count, device_memory hit, device_memory order,
-                         device_memory out_lit);
+status sun_history_trace(const sun_history *history, const ray_scene *scene,
+                         const sun_points *points, uint_buffer out_lit);
 
 /* Sums the bits up: hours lit in the last 24, minutes since the sun came or went.
- *   out_planes   float, shape (first_plane + 2, count); its last two rows are written, NO_VALUE
+ *   out_planes   shape (first_plane + 2, count); its last two rows are written, NO_VALUE
  *                where a point has no value */
 status sun_history_times(const sun_history *history, uint32_t count, uint32_t first_plane,
-                         device_memory hit, device_memory lit, device_memory out_planes);
+                         hit_record_buffer hit, uint_buffer lit, float_buffer out_planes);
 
 #endif

@@ -1,13 +1,18 @@
 #include "sunlight.h"
 
-status sunlight_run(const ray_scene *scene, const float sun[3], uint32_t count, device_memory hit,
-                    device_memory out_lit)
+status sunlight_cast(const ray_scene *scene, const float sun[3], uint32_t count,
+                     hit_record_buffer hit, float_buffer out_lit)
 {
-    const world_record world = ray_scene_world(scene);
-    const device_memory nodes = ray_scene_nodes(scene), blocks = ray_scene_blocks(scene);
+    device *dev = ray_scene_device(scene);
 
-    return device_run(ray_scene_device(scene), "sunlight",
-                      device_ray_shape(ray_scene_device(scene), count, 1), ARG(count), ARG(sun[0]),
-                      ARG(sun[1]), ARG(sun[2]), ARG(world), ARG(nodes), ARG(blocks), ARG(hit),
-                      ARG(out_lit));
+    return sunlight_run(dev, device_ray_shape(dev, count, 1),
+                        &(sunlight_args){.count = count,
+                                         .sun_x = sun[0],
+                                         .sun_y = sun[1],
+                                         .sun_z = sun[2],
+                                         .world = ray_scene_world(scene),
+                                         .nodes = ray_scene_nodes(scene),
+                                         .blocks = ray_scene_blocks(scene),
+                                         .hit = hit,
+                                         .out_lit = out_lit});
 }

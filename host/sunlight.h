@@ -5,12 +5,12 @@
 #include "ray_scene.h"
 
 /* Casts a ray towards the sun from every point that faces it.
- *   hit       hit_record, shape (count)
+ *   hit       shape (count)
  *   sun       unit vector towards the sun
- *   out_lit   float, shape (count): 1 lit; 0 in shadow, turned away, without a facet, or the sun at
+ *   out_lit   shape (count): 1 lit; 0 in shadow, turned away, without a facet, or the sun at
  *             or below the horizon. The ground plane is never in shadow (assumed: what stands on it
  *             is small against it) */
-status sunlight_run(const ray_scene *scene, const float sun[3], uint32_t count, device_memory hit,
-                    device_memory out_lit);
+status sunlight_cast(const ray_scene *scene, const float sun[3], uint32_t count,
+                     hit_record_buffer hit, float_buffer out_lit);
 
 #endif

@@ -16,7 +16,8 @@ struct temperature {
     device *dev;
     facet_record *facet; /* shape (facet_count) */
     size_t facet_count;
-    device_memory facets, facet_temperature_k;
+    facet_record_buffer facets;
+    float_buffer facet_temperature_k;
     thermal *model; /* NULL: temperatures are stated */
     sun_history *sun;
 };
@@ -104,16 +105,15 @@ out:
 /* Temperatures of points with their histories; 0 where there is no facet. Figure 3-8.
  *   met   what stands in `hit` */
 static status warm_points(const temperature *t, size_t count, const hit_record *met,
-                          device_memory history, float *out_k)
+                          uint_buffer history, float *out_k)
 {
     status rc = STATUS_OK;
     const uint32_t words = sun_history_words(t->sun);
-    const size_t bytes = count * words * sizeof(uint32_t);
-    uint32_t *lit = malloc(bytes);
+    uint32_t *lit = malloc(count * words * sizeof *lit);
     gathering g = {0};
 
     NEED(lit, STATUS_MEMORY, "no memory for %zu points", count);
-    TRY(device_download(t->dev, history, 0, bytes, lit));
+    TRY(device_download(t->dev, history, count * words, lit));
     TRY(gathering_make(&g, t, met, lit, count));
     const thermal_subject subject = {.facet = g.facet,
                                      .count = g.count,
@@ -164,7 +164,8 @@ static status warm_run(const temperature *t, const ray_scene *rays, const facet_
                        float *out_k)
 {
     status rc = STATUS_OK;
-    device_memory hit = NULL, history = NULL;
+    hit_record_buffer hit = {0};
+    uint_buffer history = {0};
     hit_record *at = malloc(run->points * sizeof *at), *next = at;
     float *point_k = malloc(run->points * sizeof *point_k);
 
@@ -173,10 +174,11 @@ static status warm_run(const temperature *t, const ray_scene *rays, const facet_
         facet_sample(next, run->shape, i, run->level[i]);
         next += facet_sample_count(run->level[i]);
     }
-    TRY(device_allocate(t->dev, &hit, run->points * sizeof *at, at));
-    TRY(device_allocate(t->dev, &history,
-                        (size_t)run->points * sun_history_words(t->sun) * sizeof(uint32_t), NULL));
-    TRY(sun_history_trace(t->sun, rays, t->facets, run->points, hit, NULL, history));
+    TRY(device_allocate(t->dev, &hit, run->points, at));
+    TRY(device_allocate(t->dev, &history, (size_t)run->points * sun_history_words(t->sun), NULL));
+    TRY(sun_history_trace(t->sun, rays,
+                          &(sun_points){.count = run->points, .facets = t->facets, .hit = hit},
+                          history));
     TRY(warm_points(t, run->points, at, history, point_k));
     average(run, point_k, out_k);
 out:
@@ -257,27 +259,25 @@ static status warm_facets(temperature *t, const scene *s, const ray_scene *rays)
     } else {
         for (size_t i = 0; i < t->facet_count; i++) facet_k[i] = t->facet[i].stated_temperature_k;
     }
-    TRY(device_allocate(t->dev, &t->facet_temperature_k, t->facet_count * sizeof *facet_k,
-                        facet_k));
+    TRY(device_allocate(t->dev, &t->facet_temperature_k, t->facet_count, facet_k));
 out:
     free(facet_k);
     return rc;
 }
 
-status temperature_open(temperature **out, device *dev, const scene *s, const ray_scene *rays,
-                        const bodies *dimming, device_memory facets, const facet_record *facet,
-                        size_t facet_count, sun_memory *memory)
+status temperature_open(temperature **out, device *dev, const temperature_scene *from)
 {
     status rc = STATUS_OK;
+    const size_t count = from->facet_count;
     temperature *t = calloc(1, sizeof *t);
 
     NEED(t, STATUS_MEMORY, "no memory for temperatures");
-    *t = (temperature){.dev = dev, .facet_count = facet_count, .facets = facets};
-    t->facet = malloc((facet_count + 1) * sizeof *facet);
-    NEED(t->facet, STATUS_MEMORY, "no memory for %zu facets", facet_count);
-    memcpy(t->facet, facet, facet_count * sizeof *facet);
-    TRY(open_sun_history(t, s, dimming, memory));
-    TRY(warm_facets(t, s, rays));
+    *t = (temperature){.dev = dev, .facet_count = count, .facets = from->facets};
+    t->facet = malloc((count + 1) * sizeof *t->facet);
+    NEED(t->facet, STATUS_MEMORY, "no memory for %zu facets", count);
+    memcpy(t->facet, from->facet, count * sizeof *t->facet);
+    TRY(open_sun_history(t, from->s, from->dimming, from->memory));
+    TRY(warm_facets(t, from->s, from->rays));
     *out = t;
     t = NULL;
 out:
@@ -295,7 +295,7 @@ void temperature_free(temperature *t)
     free(t);
 }
 
-device_memory temperature_of_facets(const temperature *t)
+float_buffer temperature_of_facets(const temperature *t)
 {
     return t->facet_temperature_k;
 }
@@ -305,42 +305,46 @@ uint32_t temperature_history_words(const temperature *t)
     return sun_history_words(t->sun);
 }
 
-static status warm_pixels(const temperature *t, size_t count, device_memory hit,
-                          device_memory history, device_memory out_k)
+static status warm_pixels(const temperature *t, const temperature_pixels *p)
 {
     status rc = STATUS_OK;
+    const size_t count = p->count;
     hit_record *met = malloc(count * sizeof *met);
     float *pixel_k = malloc(count * sizeof *pixel_k);
 
     NEED(met && pixel_k, STATUS_MEMORY, "no memory for %zu pixels", count);
-    TRY(device_download(t->dev, hit, 0, count * sizeof *met, met));
-    TRY(warm_points(t, count, met, history, pixel_k));
-    TRY(device_upload(t->dev, out_k, 0, count * sizeof *pixel_k, pixel_k));
+    TRY(device_download(t->dev, p->hit, count, met));
+    TRY(warm_points(t, count, met, p->history, pixel_k));
+    TRY(device_upload(t->dev, p->temperature_k, count, pixel_k));
 out:
     free(pixel_k);
     free(met);
     return rc;
 }
 
-status temperature_of_pixels(const temperature *t, const ray_scene *rays, uint32_t count,
-                             device_memory hit, device_memory order, uint32_t first_plane,
-                             device_memory out_history, device_memory out_k,
-                             device_memory out_planes)
+status temperature_of_pixels(const temperature *t, const ray_scene *rays,
+                             const temperature_pixels *p)
 {
     status rc = STATUS_OK;
+    const sun_points points = {
+        .count = p->count, .facets = t->facets, .hit = p->hit, .order = p->order};
 
-    TRY(sun_history_trace(t->sun, rays, t->facets, count, hit, order, out_history));
-    TRY(warm_pixels(t, count, hit, out_history, out_k));
-    TRY(sun_history_times(t->sun, count, first_plane, hit, out_history, out_planes));
+    TRY(sun_history_trace(t->sun, rays, &points, p->history));
+    TRY(warm_pixels(t, p));
+    TRY(sun_history_times(t->sun, p->count, p->first_plane, p->hit, p->history, p->planes));
 out:
     return rc;
 }
 
-status temperature_of_hits(const temperature *t, uint32_t count, device_memory hit,
-                           uint32_t first_plane, device_memory out_k, device_memory out_planes)
+status temperature_of_hits(const temperature *t, const temperature_pixels *p)
 {
-    return device_run(t->dev, "facet_temperature", shape1(count), ARG(count), ARG(first_plane),
-                      ARG(hit), ARG(t->facet_temperature_k), ARG(out_k), ARG(out_planes));
+    return facet_temperature_run(t->dev, shape1(p->count),
+                                 &(facet_temperature_args){.count = p->count,
+                                                           .first_plane = p->first_plane,
+                                                           .hit = p->hit,
+                                                           .temperature_k = t->facet_temperature_k,
+                                                           .out_k = p->temperature_k,
+                                                           .planes = p->planes});
 }
 
 /* Unrolls the bits of the day's slots into steps. */
@@ -354,24 +358,25 @@ static void unroll(const uint32_t *bits, long last, temperature_day *day)
     }
 }
 
-status temperature_day_of(const temperature *t, const ray_scene *rays, device_memory hit,
+status temperature_day_of(const temperature *t, const ray_scene *rays, hit_record_buffer hit,
                           temperature_day *out)
 {
     status rc = STATUS_OK;
     const uint32_t words = sun_history_words(t->sun), slots = sun_history_slots(t->sun);
     temperature_day day = {.step_count = slots, .step_s = 86400.0 / slots};
     const long last = sun_history_last(t->sun, &day.last_s);
-    device_memory history = NULL;
+    uint_buffer history = {0};
     uint32_t *bits = malloc(words * sizeof *bits);
     hit_record met;
 
     day.lit = calloc(slots, sizeof *day.lit);
     day.temperature_k = t->model ? malloc(slots * sizeof *day.temperature_k) : NULL;
     NEED(bits && day.lit && (!t->model || day.temperature_k), STATUS_MEMORY, "no memory for a day");
-    TRY(device_allocate(t->dev, &history, words * sizeof *bits, NULL));
-    TRY(sun_history_trace(t->sun, rays, t->facets, 1, hit, NULL, history));
-    TRY(device_download(t->dev, history, 0, words * sizeof *bits, bits));
-    TRY(device_download(t->dev, hit, 0, sizeof met, &met));
+    TRY(device_allocate(t->dev, &history, words, NULL));
+    TRY(sun_history_trace(t->sun, rays, &(sun_points){.count = 1, .facets = t->facets, .hit = hit},
+                          history));
+    TRY(device_download(t->dev, history, words, bits));
+    TRY(device_download(t->dev, hit, 1, &met));
     unroll(bits, last, &day);
     if (t->model) {
         const thermal_subject subject = {.facet = &t->facet[met.facet],

@@ -10,38 +10,48 @@
 
 typedef struct temperature temperature;
 
+/* What temperatures follow from; must outlive them. */
+typedef struct temperature_scene {
+    const scene *s;
+    const ray_scene *rays;
+    const bodies *dimming;      /* NULL: none */
+    facet_record_buffer facets; /* shape (facet_count), the ground's last */
+    const facet_record *facet;  /* the same; need not outlive temperature_open */
+    size_t facet_count;
+    sun_memory *memory; /* of the same scene at other times of its day; NULL: none */
+} temperature_scene;
+
 /* Computes the facets' temperatures: stated ones, or from the weather: in thesis mode with the sun
  * on them whenever it shines, in exact mode the mean over points of their area, each with its own sun
- * and shadow. Scene, rays, device and memory must outlive it.
- *   memory          of the same scene at other times of its day; NULL: none
- *   facet, facets   facet_record, shape (facet_count), the ground's last, here and on the device */
-status temperature_open(temperature **out, device *dev, const scene *s, const ray_scene *rays,
-                        const bodies *dimming, device_memory facets, const facet_record *facet,
-                        size_t facet_count, sun_memory *memory);
+ * and shadow. The device must outlive it. */
+status temperature_open(temperature **out, device *dev, const temperature_scene *from);
 void temperature_free(temperature *t);
 
-/* float, shape (facet_count). */
-device_memory temperature_of_facets(const temperature *t);
+/* Shape (facet_count). */
+float_buffer temperature_of_facets(const temperature *t);
 
 /* 32-bit words in which a pixel's history of the last 24 hours fits. */
 uint32_t temperature_history_words(const temperature *t);
 
-/* Gives the pixels of a tile their facets' temperatures.
- *   hit          hit_record, shape (count)
- *   out_k        float, shape (count); 0 where a pixel meets nothing
- *   out_planes   float, shape (first_plane + SUN_PLANES, count): the last SUN_PLANES get NO_VALUE */
-status temperature_of_hits(const temperature *t, uint32_t count, device_memory hit,
-                           uint32_t first_plane, device_memory out_k, device_memory out_planes);
+/* Pixels of a tile, and what is computed of them. */
+typedef struct temperature_pixels {
+    uint32_t count;
+    hit_record_buffer hit;      /* shape (count) */
+    uint_buffer order;          /* shape (count), see sun_points */
+    uint_buffer history;        /* shape (count, words): written */
+    float_buffer temperature_k; /* shape (count): written, 0 where a pixel meets nothing */
+    uint32_t first_plane;
+    float_buffer
+        planes; /* shape (first_plane + SUN_PLANES, count): the last SUN_PLANES are written */
+} temperature_pixels;
 
-/* Casts the rays towards the day's suns and computes the temperatures of a tile.
- *   hit, order    hit_record, uint32, shape (count); see sun_history_trace
- *   out_history   uint32, shape (count, words)
- *   out_k         float, shape (count); 0 where a pixel meets nothing
- *   out_planes    float, shape (first_plane + SUN_PLANES, count): the last SUN_PLANES are written */
-status temperature_of_pixels(const temperature *t, const ray_scene *rays, uint32_t count,
-                             device_memory hit, device_memory order, uint32_t first_plane,
-                             device_memory out_history, device_memory out_k,
-                             device_memory out_planes);
+/* Gives the pixels their facets' temperatures; the planes get NO_VALUE, order and history are not
+ * used. */
+status temperature_of_hits(const temperature *t, const temperature_pixels *pixels);
+
+/* Casts the rays towards the day's suns and computes the temperatures of the pixels. */
+status temperature_of_pixels(const temperature *t, const ray_scene *rays,
+                             const temperature_pixels *pixels);
 
 /* The 24 hours up to a site's time, as a point went through them. */
 typedef struct temperature_day {
@@ -54,7 +64,7 @@ typedef struct temperature_day {
 /* The day of one point.
  *   hit   one hit_record that met something
  *   out   to be freed with temperature_day_free */
-status temperature_day_of(const temperature *t, const ray_scene *rays, device_memory hit,
+status temperature_day_of(const temperature *t, const ray_scene *rays, hit_record_buffer hit,
                           temperature_day *out);
 void temperature_day_free(temperature_day *day);
 

@@ -26,7 +26,7 @@ static status upload_forcing(thermal *t, const forcing_laws *laws, const weather
         forcing[i] = forcing_of(&w->record[i], sun, laws, t->layered != NULL);
         t->mean_air_k += w->record[i].air_temperature_k / (double)w->count;
     }
-    TRY(device_allocate(t->dev, &t->forcing, w->count * sizeof *forcing, forcing));
+    TRY(device_allocate(t->dev, &t->forcing, w->count, forcing));
 out:
     free(forcing);
     return rc;
@@ -46,7 +46,7 @@ static status keep_matter(thermal *t, const thermal_matter *m)
         NEED(t->layered, STATUS_MEMORY, "no memory for %zu materials", m->count);
         memcpy(t->layered, m->layered, layered_bytes);
     }
-    TRY(device_allocate(t->dev, &t->materials, bytes, m->material));
+    TRY(device_allocate(t->dev, &t->materials, m->count, m->material));
 out:
     return rc;
 }
@@ -64,7 +64,7 @@ static status upload_power(thermal *t, const thermal_matter *m, const weather *w
     for (size_t i = 0; i < w->count; i++)
         for (size_t k = 0; k < m->count; k++)
             power[i * m->count + k] = (float)power_at_hour(&m->power[k], w->record[i].time_h);
-    TRY(device_allocate(t->dev, &t->power, w->count * m->count * sizeof *power, power));
+    TRY(device_allocate(t->dev, &t->power, w->count * m->count, power));
     t->power_materials = (uint32_t)m->count;
 out:
     free(power);
@@ -116,8 +116,10 @@ typedef struct batch {
     uint32_t word_count, slot_count;
 } batch;
 
-void thermal_fill_layered(const thermal *t, const facet_record *facet, size_t count,
-                          layered_record *out)
+/* The ladders of facets; those that state a temperature need none.
+ *   out   shape (count) */
+static void fill_layered(const thermal *t, const facet_record *facet, size_t count,
+                         layered_record *out)
 {
     for (size_t i = 0; i < count; i++) {
         const uint32_t m = facet[i].material, column = facet[i].received_column;
@@ -132,19 +134,69 @@ void thermal_fill_layered(const thermal *t, const facet_record *facet, size_t co
     }
 }
 
-/* Puts the facets on the device, as the model's kernel takes them. */
-static status upload_batch(const thermal *t, const batch *b, device_memory *out)
+device_shape thermal_shape(size_t facet_count)
+{
+    return (device_shape){{(facet_count + LANES - 1) / LANES, 1}, 4};
+}
+
+status thermal_upload_layered(const thermal *t, const facet_record *facet, size_t count,
+                              layered_record_buffer *out)
 {
     status rc = STATUS_OK;
-    layered_record *layered = NULL;
+    layered_record *layered = malloc((count + 1) * sizeof *layered);
 
-    if (!t->layered) return device_allocate(t->dev, out, b->count * sizeof *b->facet, b->facet);
-    layered = malloc((b->count + 1) * sizeof *layered);
-    NEED(layered, STATUS_MEMORY, "no memory for %zu facets of layers", b->count);
-    thermal_fill_layered(t, b->facet, b->count, layered);
-    TRY(device_allocate(t->dev, out, b->count * sizeof *layered, layered));
+    NEED(layered, STATUS_MEMORY, "no memory for %zu facets of layers", count);
+    fill_layered(t, facet, count, layered);
+    TRY(device_allocate(t->dev, out, count, layered));
 out:
     free(layered);
+    return rc;
+}
+
+/* Launches the model's kernel over a batch.
+ *   lit   NULL: always lit */
+static status run_layered(const thermal *t, const batch *b, thermal_span span, uint_buffer lit,
+                          float_buffer out_temperature_k)
+{
+    status rc = STATUS_OK;
+    layered_record_buffer facets = {0};
+
+    TRY(thermal_upload_layered(t, b->facet, b->count, &facets));
+    TRY(layered_run(t->dev, thermal_shape(b->count),
+                    &(layered_args){.span = span,
+                                    .facets = facets,
+                                    .forcing = t->forcing,
+                                    .sunlit = lit,
+                                    .power_materials = t->power_materials,
+                                    .power = t->power,
+                                    .lateral_columns = t->lateral_columns,
+                                    .lateral_w_m2 = t->lateral_w_m2,
+                                    .received_columns = t->received_columns,
+                                    .received_w_m2 = t->received_w_m2,
+                                    .temperature_k = out_temperature_k}));
+out:
+    device_release(facets);
+    return rc;
+}
+
+static status run_thermal(const thermal *t, const batch *b, thermal_span span, uint_buffer lit,
+                          float_buffer out_temperature_k)
+{
+    status rc = STATUS_OK;
+    facet_record_buffer facets = {0};
+
+    TRY(device_allocate(t->dev, &facets, b->count, b->facet));
+    TRY(thermal_run(t->dev, thermal_shape(b->count),
+                    &(thermal_args){.span = span,
+                                    .facets = facets,
+                                    .materials = t->materials,
+                                    .forcing = t->forcing,
+                                    .sunlit = lit,
+                                    .power_materials = t->power_materials,
+                                    .power = t->power,
+                                    .temperature_k = out_temperature_k}));
+out:
+    device_release(facets);
     return rc;
 }
 
@@ -152,33 +204,22 @@ out:
 static status compute(const thermal *t, const batch *b, thermal_span span, float *out_temperature_k)
 {
     status rc = STATUS_OK;
-    device_memory facets = NULL, lit = NULL, temperature_k = NULL;
-    const size_t bytes = span.row_count * b->count * sizeof(float);
-    const device_shape shape = {{(b->count + LANES - 1) / LANES, 1}, 4};
+    uint_buffer lit = {0};
+    float_buffer temperature_k = {0};
+    const size_t values = span.row_count * b->count;
 
     span.facet_count = (uint)b->count;
     span.sunlit_words = b->word_count;
     span.sunlit_period = b->slot_count;
     span.step_s = (float)t->step_s;
     span.step_count = (uint)t->step_count;
-    TRY(upload_batch(t, b, &facets));
-    if (b->word_count > 0)
-        TRY(device_allocate(t->dev, &lit, b->count * b->word_count * sizeof *b->lit, b->lit));
-    TRY(device_allocate(t->dev, &temperature_k, bytes, NULL));
-    if (t->layered)
-        TRY(device_run(t->dev, "layered", shape, ARG(span), ARG(facets), ARG(t->forcing), ARG(lit),
-                       ARG(t->power_materials), ARG(t->power), ARG(t->lateral_columns),
-                       ARG(t->lateral_w_m2), ARG(t->received_columns), ARG(t->received_w_m2),
-                       ARG(temperature_k)));
-    else
-        TRY(device_run(t->dev, "thermal", shape, ARG(span), ARG(facets), ARG(t->materials),
-                       ARG(t->forcing), ARG(lit), ARG(t->power_materials), ARG(t->power),
-                       ARG(temperature_k)));
-    TRY(device_download(t->dev, temperature_k, 0, bytes, out_temperature_k));
+    if (b->word_count > 0) TRY(device_allocate(t->dev, &lit, b->count * b->word_count, b->lit));
+    TRY(device_allocate(t->dev, &temperature_k, values, NULL));
+    TRY((t->layered ? run_layered : run_thermal)(t, b, span, lit, temperature_k));
+    TRY(device_download(t->dev, temperature_k, values, out_temperature_k));
 out:
     device_release(temperature_k);
     device_release(lit);
-    device_release(facets);
     return rc;
 }
 

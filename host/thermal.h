@@ -4,9 +4,8 @@
 #ifndef THERMAL_H
 #define THERMAL_H
 
-#include "../kernels/records.h"
-#include "device.h"
 #include "forcing.h"
+#include "launches.h"
 #include "layered.h"
 #include "power.h"
 #include "site.h"

@@ -85,7 +85,7 @@ static status trace_part(collection *c, const ray_scene *rays, const geometry *g
     status rc = STATUS_OK;
     device *dev = ray_scene_device(rays);
     shape_factor_points points = {.count = count};
-    const size_t bytes = (size_t)count * shape_factor_cell_count(c->part[k]) * sizeof(uint32_t);
+    const size_t words = (size_t)count * shape_factor_cell_count(c->part[k]);
     hit_record *at = malloc(count * sizeof *at), all[FACET_SAMPLES];
 
     NEED(at, STATUS_MEMORY, "no memory for %u points", count);
@@ -94,10 +94,10 @@ static status trace_part(collection *c, const ray_scene *rays, const geometry *g
         at[i] = all[k];
         if (!(g->area_m2[first + i] > 0.0f)) at[i].facet = RECORD_NONE;
     }
-    TRY(device_allocate(dev, &points.hit, count * sizeof *at, at));
-    TRY(device_allocate(dev, &points.met, bytes, NULL));
+    TRY(device_allocate(dev, &points.hit, count, at));
+    TRY(device_allocate(dev, &points.met, words, NULL));
     TRY(shape_factor_trace(c->part[k], rays, NULL, &points));
-    TRY(device_download(dev, points.met, 0, bytes, c->met[k]));
+    TRY(device_download(dev, points.met, words, c->met[k]));
 out:
     device_release(points.met);
     device_release(points.hit);
@@ -135,8 +135,7 @@ static status collect(collection *c, const ray_scene *rays, const shape_factor_g
 
     c->cell = malloc(c->cell_count * sizeof *c->cell);
     NEED(c->cell, STATUS_MEMORY, "no memory for a hemisphere of %u cells", c->cell_count);
-    TRY(device_download(dev, shape_factor_cells(grid), 0, c->cell_count * sizeof *c->cell,
-                        c->cell));
+    TRY(device_download(dev, shape_factor_cells(grid), 4 * (size_t)c->cell_count, c->cell[0]));
     for (uint32_t k = 0; k < FACET_SAMPLES; k++) {
         TRY(shape_factor_open_part(&part[k], dev, grid, k, FACET_SAMPLES));
         c->part[k] = part[k];

@@ -50,7 +50,7 @@ kernel void background(const uint count, const uint cell_count, const world_reco
                        global const float *cell, global const facet_record *facet,
                        global const float *temperature_k, global const material_record *material,
                        global const hit_record *hit, global const uint *met,
-                       global const uint *order, global background_record *out)
+                       OPTIONAL global const uint *order, global background_record *out)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= count) return;

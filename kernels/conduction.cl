@@ -146,9 +146,9 @@ static void go_through_days(const patch_run *p, uint day, global float *out_w_m2
 kernel void conduction(const thermal_span span, const uint patch_count,
                        global const uint *patch_first, global const layered_record *facets,
                        global const conduction_record *links, global const forcing_record *forcing,
-                       global const uint *sunlit, const uint power_materials,
-                       global const float *power, const uint received_columns,
-                       global const float *received_w_m2, global conduction_group *groups,
+                       OPTIONAL global const uint *sunlit, const uint power_materials,
+                       OPTIONAL global const float *power, const uint received_columns,
+                       OPTIONAL global const float *received_w_m2, global conduction_group *groups,
                        global float *numbers, global float *lateral_w_m2)
 {
     const uint patch = get_global_id(0);

@@ -20,6 +20,8 @@
 #define INLINE static inline __attribute__((always_inline))
 #endif
 #define RECORD_SIZE(type, bytes) typedef char type##_size[sizeof(type) == (bytes) ? 1 : -1]
+/* Before a buffer in a kernel's signature: it may be NULL. */
+#define OPTIONAL
 
 #else
 
@@ -34,6 +36,7 @@
 #define RECORD_SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)
 #endif
 typedef uint32_t uint;
+typedef uint8_t uchar;
 
 #endif
 

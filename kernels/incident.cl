@@ -101,10 +101,11 @@ kernel void incident(const radiometry_record frame, const camera_record camera,
                      global const facet_record *facets, global const material_record *materials,
                      global const float *temperature_k,
                      global const background_record *facet_background, global const float *light,
-                     global const hit_record *hit, global const uint *order,
-                     global const background_record *background, global const float *background_lit,
-                     global const uint *met, global const uint *gloss_words,
-                     global const float *spectra, global const float *emissivity, global float *out)
+                     global const hit_record *hit, OPTIONAL global const uint *order,
+                     OPTIONAL global const background_record *background,
+                     OPTIONAL global const float *background_lit, global const uint *met,
+                     OPTIONAL global const uint *gloss_words, global const float *spectra,
+                     global const float *emissivity, global float *out)
 {
     const uint begin = get_global_id(0) * RAY_GROUPS * LANES_WIDTH;
     const uint end = min(begin + RAY_GROUPS * LANES_WIDTH, frame.pixel_count);

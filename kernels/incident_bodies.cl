@@ -115,9 +115,9 @@ kernel void incident_bodies(
     global const bvh_block *body_blocks, global const uint *medium, global const float *level,
     global const facet_record *facets, global const material_record *materials,
     global const float *temperature_k, global const background_record *facet_background,
-    global const float *light, global const hit_record *hit, global const uint *order,
+    global const float *light, global const hit_record *hit, OPTIONAL global const uint *order,
     global const background_record *background, global const float *background_lit,
-    global const uint *met, global const uint *gloss_words, global const float *spectra,
+    global const uint *met, OPTIONAL global const uint *gloss_words, global const float *spectra,
     global const float *emissivity, global const float *extinction, global float *out)
 {
     const uint place = get_global_id(0);

@@ -9,13 +9,13 @@
  * arriving: (pixel_count, 2, sample_count): radiance of sky and of facets that reaches these; NULL: as
  *   closed
  * light: (facets, LIGHT_ROWS, sample_count) */
-kernel void interreflection(const radiometry_record frame, global const hit_record *hit,
+kernel void interreflection(const radiometry_record frame, OPTIONAL global const hit_record *hit,
                             global const facet_record *facets,
                             global const material_record *materials,
                             global const float *temperature_k,
                             global const background_record *facet_background,
                             global const float *spectra, global const float *emissivity,
-                            global const float *arriving, global float *light)
+                            OPTIONAL global const float *arriving, global float *light)
 {
     const uint i = get_global_id(0), row = frame.sample_count;
     if (i >= frame.pixel_count) return;

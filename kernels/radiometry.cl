@@ -296,16 +296,16 @@ static void store_terms(const group_terms *terms, uint term_count, uint first, u
  * terms: shape (groups launched, band_plane_terms, sample_count, PIXEL_GROUP), W m-2 sr-1 um-1: what
  *   the radiance is the sum of where that is wanted (emitted by the target, reflected of the sun,
  *   the sky and the background, path) and tau2; then the radiance. Of pixels past the end 0 */
-kernel void radiometry(const radiometry_record frame, const air_record air,
-                       const camera_record camera, global const facet_record *facets,
-                       global const material_record *materials, global const float *temperature_k,
-                       global const hit_record *hit, global const background_record *background,
-                       global const float *sunlit, global const float *background_sunlit,
-                       global const float *spectra, global const float *emissivity,
-                       global const float *incident, global const uint *knot_first,
-                       global const float *knot_share, global const float *extinction,
-                       global const transmission_path *bodies,
-                       global emissivity_record *emissivities, global float *terms)
+kernel void
+radiometry(const radiometry_record frame, const air_record air, const camera_record camera,
+           global const facet_record *facets, global const material_record *materials,
+           global const float *temperature_k, global const hit_record *hit,
+           global const background_record *background, global const float *sunlit,
+           global const float *background_sunlit, global const float *spectra,
+           global const float *emissivity, OPTIONAL global const float *incident,
+           OPTIONAL global const uint *knot_first, OPTIONAL global const float *knot_share,
+           OPTIONAL global const float *extinction, OPTIONAL global const transmission_path *bodies,
+           global emissivity_record *emissivities, global float *terms)
 {
     const uint group = get_global_id(0), first = (frame.first_group + group) * PIXEL_GROUP;
     if (first >= frame.pixel_count) return;

@@ -6,7 +6,7 @@
  * temperature in, W m-2 out. */
 kernel void radiosity(const uint facet_count, const uint step_count,
                       global const layered_record *facet, global const forcing_record *forcing,
-                      const uint received_columns, global const float *received_w_m2,
+                      const uint received_columns, OPTIONAL global const float *received_w_m2,
                       global float *rows)
 {
     const uint i = get_global_id(0);

@@ -117,6 +117,20 @@ typedef struct forcing_record {
 } forcing_record;
 RECORD_SIZE(forcing_record, 64);
 
+/* Which temperatures to compute: see thermal.cl. Row r holds the temperature at step first_step + r - 1 + weight, linear between
+ * steps; at step 0 the weight is 1. */
+typedef struct thermal_span {
+    uint facet_count;
+    uint first_step;
+    uint row_count;
+    uint sunlit_words; /* words per facet in the sunlit mask; 0: no mask, always lit */
+    float weight;      /* above 0, at most 1 */
+    float step_s;
+    uint sunlit_period; /* steps after which the mask begins anew; 0: never */
+    uint step_count;    /* of the weather */
+} thermal_span;
+RECORD_SIZE(thermal_span, 32);
+
 /* What rays need of a scene besides its triangles. */
 typedef struct world_record {
     uint ground_facet; /* facet of the endless level plane, RECORD_NONE without one */

@@ -132,7 +132,8 @@ static void cast(sun_rays *rays, const lit_points *points, const ray_beam_box *o
 kernel void sun_history(const uint count, const sun_day day, const world_record world,
                         global const bvh_node *nodes, global const bvh_block *blocks,
                         global const facet_record *facets, global const float *sun,
-                        global const hit_record *hit, global const uint *order, global uint *lit)
+                        global const hit_record *hit, OPTIONAL global const uint *order,
+                        global uint *lit)
 {
     const uint first = get_global_id(0) * RAY_GROUPS * RAY_LANES, word = get_global_id(1);
     if (first >= count) return;

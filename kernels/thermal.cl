@@ -22,8 +22,8 @@ static void set_bodies(thermal_body *body, lanes *stated_k, uint *material, ther
  * see lit.h; power: shape (steps, power_materials), see lit.h; temperature_k: (row_count, facet_count). */
 kernel void thermal(const thermal_span span, global const facet_record *facets,
                     global const material_record *materials, global const forcing_record *forcing,
-                    global const uint *sunlit, const uint power_materials,
-                    global const float *power, global float *temperature_k)
+                    OPTIONAL global const uint *sunlit, const uint power_materials,
+                    OPTIONAL global const float *power, global float *temperature_k)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= span.facet_count) return;

@@ -21,20 +21,6 @@
 #define THERMAL_SUB_STEP_S 300.0f /* at most */
 #define THERMAL_GROUND_REFLECTANCE 0.15f
 
-/* What to compute. Row r holds the temperature at step first_step + r - 1 + weight, linear between
- * steps; at step 0 the weight is 1. */
-typedef struct thermal_span {
-    uint facet_count;
-    uint first_step;
-    uint row_count;
-    uint sunlit_words; /* words per facet in the sunlit mask; 0: no mask, always lit */
-    float weight;      /* above 0, at most 1 */
-    float step_s;
-    uint sunlit_period; /* steps after which the mask begins anew; 0: never */
-    uint step_count;    /* of the weather */
-} thermal_span;
-RECORD_SIZE(thermal_span, 32);
-
 /* What does not change with time. */
 typedef struct thermal_body {
     lanes normal[3];

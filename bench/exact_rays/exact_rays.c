@@ -61,20 +61,22 @@ static status trace(const bvh_source *source, const float *rays, uint32_t count,
     bvh *tree = NULL;
     device *dev = NULL;
     ray_scene *scene = NULL;
-    device_memory ray = NULL, range = NULL, facet = NULL, met = NULL;
+    float_buffer ray = {0}, range = {0};
+    uint_buffer facet = {0};
+    uchar_buffer met = {0};
 
     TRY(bvh_build(&tree, source));
     TRY(device_open(&dev, -1));
     TRY(ray_scene_open(&scene, dev, &tree));
-    TRY(device_allocate(dev, &ray, (size_t)count * sizeof(float[6]), rays));
-    TRY(device_allocate(dev, &range, count * sizeof *out->range, NULL));
-    TRY(device_allocate(dev, &facet, count * sizeof *out->facet, NULL));
+    TRY(device_allocate(dev, &ray, 6 * (size_t)count, rays));
+    TRY(device_allocate(dev, &range, count, NULL));
+    TRY(device_allocate(dev, &facet, count, NULL));
     TRY(device_allocate(dev, &met, count, NULL));
     TRY(ray_scene_trace(scene, count, count, ray, range, facet));
     TRY(ray_scene_occluded(scene, count, count, ray, met));
-    TRY(device_download(dev, range, 0, count * sizeof *out->range, out->range));
-    TRY(device_download(dev, facet, 0, count * sizeof *out->facet, out->facet));
-    TRY(device_download(dev, met, 0, count, out->met));
+    TRY(device_download(dev, range, count, out->range));
+    TRY(device_download(dev, facet, count, out->facet));
+    TRY(device_download(dev, met, count, out->met));
 out:
     device_release(met);
     device_release(facet);

@@ -17,11 +17,11 @@ typedef struct grids {
 
 static float (*download(device *dev, const shape_factor_grid *grid))[4]
 {
-    const size_t bytes = shape_factor_cell_count(grid) * sizeof(float[4]);
-    float(*cell)[4] = malloc(bytes);
+    const uint32_t count = shape_factor_cell_count(grid);
+    float(*cell)[4] = malloc(count * sizeof *cell);
 
     assert_non_null(cell);
-    assert_int_equal(device_download(dev, shape_factor_cells(grid), 0, bytes, cell), STATUS_OK);
+    assert_int_equal(device_download(dev, shape_factor_cells(grid), 4 * count, cell[0]), STATUS_OK);
     return cell;
 }
 

@@ -53,3 +53,13 @@ DETECTOR = record("*seed *frame *band *columns *count *last_count noise shot fix
                   " periodic waves_across waves_down gain offset *unused")
 BLUR = record("*columns *rows *step *picture_columns *picture_rows *weight_columns *weight_rows"
               " *first_column *first_row *unused[3]")
+SPAN = record("*facet_count *first_step *row_count *sunlit_words weight step_s *sunlit_period *step_count")
+
+TWINS = {  # by the name of the record
+    "bvh_node": BVH_NODE, "bvh_block": BVH_BLOCK, "hit_record": HIT, "facet_record": FACET,
+    "material_record": MATERIAL, "forcing_record": FORCING, "world_record": WORLD,
+    "background_record": BACKGROUND, "camera_record": CAMERA, "radiometry_record": RADIOMETRY,
+    "incident_record": INCIDENT, "band_record": BAND, "detector_record": DETECTOR,
+    "blur_record": BLUR, "air_record": AIR, "conduction_record": CONDUCTION, "view_record": VIEW,
+    "emissivity_record": EMISSIVITY, "thermal_span": SPAN,
+}

@@ -5,18 +5,7 @@ import pytest
 import ray_world
 import records
 import thermal_reference
-
-TWINS = {
-    "bvh_node": records.BVH_NODE, "bvh_block": records.BVH_BLOCK, "hit_record": records.HIT,
-    "facet_record": records.FACET, "material_record": records.MATERIAL,
-    "forcing_record": records.FORCING, "world_record": records.WORLD,
-    "background_record": records.BACKGROUND, "camera_record": records.CAMERA,
-    "radiometry_record": records.RADIOMETRY, "incident_record": records.INCIDENT, "band_record": records.BAND,
-    "detector_record": records.DETECTOR, "blur_record": records.BLUR, "air_record": records.AIR,
-    "conduction_record": records.CONDUCTION, "view_record": records.VIEW,
-    "emissivity_record": records.EMISSIVITY,
-}
-
+from records import TWINS
 
 def device_layout(opencl, name, fields):
     """Offset and size of every field, and last the record's size, as the device has them."""
@@ -57,7 +46,7 @@ def test_every_record_of_the_header_has_a_twin():
     ("HIT", ray_world.HIT), ("WORLD", ray_world.WORLD), ("BACKGROUND", ray_world.BACKGROUND),
     ("CAMERA", ray_world.CAMERA), ("FACET", ray_world.FACET), ("MATERIAL", ray_world.MATERIAL),
     ("FACET", thermal_reference.FACET), ("MATERIAL", thermal_reference.MATERIAL),
-    ("FORCING", thermal_reference.FORCING)])
+    ("FORCING", thermal_reference.FORCING), ("SPAN", thermal_reference.SPAN)])
 def test_other_twins_agree_where_they_name_the_same_field(name, dtype):
     whole = getattr(records, name)
 

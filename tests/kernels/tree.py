@@ -7,7 +7,7 @@ import tempfile
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SOURCES = ["bvh.c", "bvh_binary.c", "bvh_wide.c", "polygon.c", "status.c"]
+SOURCES = ["bvh.c", "bvh_binary.c", "bvh_wide.c", "corner_tree.c", "polygon.c", "status.c"]
 
 
 class Source(ctypes.Structure):
