@@ -58,6 +58,7 @@ int main(int argc, char **argv)
 
     sigaction(SIGINT, &interrupt, NULL);
     sigaction(SIGTERM, &interrupt, NULL);
+    if (signal(SIGHUP, SIG_IGN) != SIG_IGN) sigaction(SIGHUP, &interrupt, NULL); /* but for nohup */
     standard_output_open();
     const int code = run(argc, argv);
     const int end = tool_end(argc > 1 ? argv[1] : "", standard_output_close());

@@ -236,6 +236,8 @@ int command_render(int argc, char **argv)
         const struct sigaction action = {.sa_handler = on_signal};
         sigaction(SIGINT, &action, NULL);
         sigaction(SIGTERM, &action, NULL);
+        if (signal(SIGHUP, SIG_IGN) != SIG_IGN)
+            sigaction(SIGHUP, &action, NULL); /* but for nohup */
         code = command_end("render", run(a));
     }
     free(a);
