@@ -1,5 +1,7 @@
 #include "record_file.h"
 
+#include "number.h"
+
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
@@ -207,15 +209,6 @@ int record_file_line(const record_file *file)
     return file->taken_line;
 }
 
-/* A number starts with a sign, a digit or a point: strtod alone would take "nan" and "0x1". */
-static bool starts_number(const char *text)
-{
-    if (*text == '+' || *text == '-') text++;
-    if (*text == '.') text++;
-    return isdigit((unsigned char)*text) &&
-           !(text[0] == '0' && tolower((unsigned char)text[1]) == 'x');
-}
-
 int record_numbers(const char *text, size_t limit, double *out)
 {
     int count = 0;
@@ -223,12 +216,10 @@ int record_numbers(const char *text, size_t limit, double *out)
     for (;;) {
         while (isspace((unsigned char)*text) || *text == ',') text++;
         if (!*text) return count;
-        if (!starts_number(text)) return -1;
-        char *end;
-        const double value = strtod(text, &end);
-        if (!isfinite(value)) return -1;
+        double value;
+        text = number_take(text, &value);
+        if (!text) return -1;
         if ((size_t)count < limit) out[count] = value;
         count++;
-        text = end;
     }
 }

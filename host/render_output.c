@@ -63,10 +63,8 @@ static status check_names(const writing *w)
 
     for (const char *at = w->options->planes; at;) {
         const size_t length = strcspn(at, ",");
-        bool known = false;
         snprintf(name, sizeof name, "%.*s", (int)length, at);
-        for (size_t i = 0; i < w->plane_count; i++) known |= !strcmp(w->planes[i].name, name);
-        NEED(known, STATUS_ARGUMENT, "there is no plane '%s' in this scene", name);
+        TRY(render_plane_check(w->planes, w->plane_count, name));
         at = at[length] ? at + length + 1 : NULL;
     }
 out:
