@@ -118,6 +118,13 @@ $(BUILD)/%.o: %.cpp | build/deps
 $(GENERATED)/%.o: $(GENERATED)/%.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
+# A tree that was kept on disk is one that these sources would build.
+BVH_SOURCES := $(sort $(wildcard kernels/records.h kernels/*/records.h \
+	$(foreach n,bvh.[ch] bvh_binary.[ch] bvh_cache.[ch] bvh_wide.[ch] polygon.[ch],host/$n host/*/$n)))
+$(filter %/bvh_cache.o,$(LIBRARY)): $(BVH_SOURCES)
+$(filter %/bvh_cache.o,$(LIBRARY)): CPPFLAGS += \
+	-DBVH_LAYOUT=0x$(shell cat $(BVH_SOURCES) | sha256sum | cut -c1-16)u
+
 # How the host launches each kernel; written only where it changed, so that a kernel's body rebuilds nothing else.
 $(GENERATED)/launches.h $(GENERATED)/launches.c: $(GENERATED)/launches.stamp ;
 

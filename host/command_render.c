@@ -2,6 +2,7 @@
 #include "command_scene.h"
 #include "command_value.h"
 #include "errand.h"
+#include "interrupt.h"
 #include "number.h"
 #include "picture.h"
 #include "pocl_affinity.h"
@@ -20,14 +21,6 @@ static const char purpose[] =
     "  DIR/NAME.img, .hdr         radiance, one ENVI band per sensor band\n"
     "  DIR/NAME_truth.img, .hdr   every other plane, its unit in the band name\n"
     "  DIR/NAME.exr, NAME_<plane>.png, NAME.json\n";
-
-static volatile sig_atomic_t stop;
-
-static void on_signal(int signal_number)
-{
-    (void)signal_number;
-    stop = 1;
-}
 
 enum { DEVICE_LIMIT = 16 };
 
@@ -201,8 +194,7 @@ static status run(const arguments *a)
     TRY(errand_run(list, sizeof list / sizeof *list));
     TRY(render_output(o.s, o.dev, a->device_count, &a->output));
 out:
-    /* A signal can also break off what the system was doing. */
-    if (rc != STATUS_OK && stop) rc = status_set(STATUS_INTERRUPTED, "interrupted");
+    rc = interrupt_status(rc);
     for (size_t i = 0; i < a->device_count; i++) device_free(o.dev[i]);
     scene_free(o.s);
     return rc;
@@ -216,13 +208,10 @@ int command_render(int argc, char **argv)
     if (!a) return program_end(command, status_set(STATUS_MEMORY, "no memory"));
     a->device[0] = -1;
     a->device_count = 1;
-    a->output.stop = &stop;
     a->output.shows_progress = isatty(STDERR_FILENO);
     code = read_arguments(a, argc, argv);
     if (code == OPTION_TABLE_DONE) {
-        const struct sigaction action = {.sa_handler = on_signal};
-        sigaction(SIGINT, &action, NULL);
-        sigaction(SIGTERM, &action, NULL);
+        interrupt_catch_signals();
         code = program_end(command, run(a));
     }
     command_settings_free(&a->settings);

@@ -13,6 +13,10 @@ enum { WORK_ROWS = 9, PASSES = 8 };
 #define LEAST_SHARE 0.005f /* of a view, that facets take */
 #define SETTLED_W_M2 2.0f
 
+/* What a step of a column takes on one core in the kernels, s. */
+#define SENT_S 1e-7
+#define RECEIVED_S 3e-7
+
 /* What stays the same over the passes. */
 typedef struct exchange {
     const scene *s;
@@ -59,48 +63,81 @@ out:
     return rc;
 }
 
-/* Launches the kernel over the patches; the heat along facets stays with the model. */
+/* What the kernel works with. */
+typedef struct conducting {
+    uint_buffer first, lit;
+    conduction_record_buffer links;
+    conduction_group_buffer groups;
+    float_buffer rows;
+    conduction_progress_buffer progress;
+    conduction_progress *at; /* shape (patch_count) */
+} conducting;
+
+static void conducting_free(conducting *c)
+{
+    device_release(c->progress);
+    device_release(c->rows);
+    device_release(c->groups);
+    device_release(c->links);
+    device_release(c->lit);
+    device_release(c->first);
+    free(c->at);
+}
+
+static status conducting_open(conducting *c, const exchange *x, const conduction_map *map)
+{
+    status rc = STATUS_OK;
+    device *dev = x->model->dev;
+    const size_t n = map->count, patches = map->patch_count;
+
+    c->at = calloc(patches, sizeof *c->at);
+    NEED(c->at, STATUS_MEMORY, "no memory for %zu patches", patches);
+    TRY(device_allocate(dev, &c->first, patches + 1, map->patch_first));
+    TRY(device_allocate(dev, &c->links, n, map->link));
+    TRY(upload_lit(x, map->facet, n, &c->lit));
+    TRY(device_allocate(dev, &c->groups, n, NULL));
+    TRY(device_allocate(dev, &c->rows, n * WORK_ROWS, NULL));
+    TRY(device_allocate(dev, &c->progress, patches, c->at));
+out:
+    return rc;
+}
+
+/* Launches the kernel over the patches until all are done; the heat along facets stays with the model. */
 static status conduct_map(const exchange *x, const conduction_map *map,
                           layered_record_buffer facets)
 {
     status rc = STATUS_OK;
     thermal *t = x->model;
-    const size_t n = map->count;
-    const thermal_span span = span_of(x, n);
-    const device_shape shape = {{map->patch_count, 1}, 1};
-    uint_buffer first = {0}, lit = {0};
-    conduction_record_buffer links = {0};
-    conduction_group_buffer groups = {0};
-    float_buffer rows = {0};
+    const device_shape shape = {.size = {map->patch_count, 1}, .local = 1};
+    conducting c = {0};
+    bool is_done = false;
 
-    TRY(device_allocate(t->dev, &first, map->patch_count + 1, map->patch_first));
-    TRY(device_allocate(t->dev, &links, n, map->link));
-    TRY(upload_lit(x, map->facet, n, &lit));
-    TRY(device_allocate(t->dev, &groups, n, NULL));
-    TRY(device_allocate(t->dev, &rows, n * WORK_ROWS, NULL));
-    TRY(device_allocate(t->dev, &t->lateral_w_m2, n * 2 * t->step_count, NULL));
-    TRY(conduction_run(t->dev, shape,
-                       &(conduction_args){.span = span,
-                                          .patch_count = map->patch_count,
-                                          .patch_first = first,
-                                          .facets = facets,
-                                          .links = links,
-                                          .forcing = t->forcing,
-                                          .sunlit = lit,
-                                          .power_materials = t->power_materials,
-                                          .power = t->power,
-                                          .received_columns = t->received_columns,
-                                          .received_w_m2 = t->received_w_m2,
-                                          .groups = groups,
-                                          .numbers = rows,
-                                          .lateral_w_m2 = t->lateral_w_m2}));
-    t->lateral_columns = (uint32_t)n;
+    TRY(conducting_open(&c, x, map));
+    TRY(device_allocate(t->dev, &t->lateral_w_m2, map->count * 2 * t->step_count, NULL));
+    const conduction_args args = {.span = span_of(x, map->count),
+                                  .patch_count = map->patch_count,
+                                  .patch_first = c.first,
+                                  .facets = facets,
+                                  .links = c.links,
+                                  .forcing = t->forcing,
+                                  .sunlit = c.lit,
+                                  .power_materials = t->power_materials,
+                                  .power = t->power,
+                                  .received_columns = t->received_columns,
+                                  .received_w_m2 = t->received_w_m2,
+                                  .groups = c.groups,
+                                  .numbers = c.rows,
+                                  .progress = c.progress,
+                                  .lateral_w_m2 = t->lateral_w_m2};
+    while (!is_done) {
+        TRY(conduction_run(t->dev, shape, &args));
+        TRY(device_download(t->dev, c.progress, map->patch_count, c.at));
+        is_done = true;
+        for (uint32_t i = 0; i < map->patch_count; i++) is_done &= c.at[i].is_done;
+    }
+    t->lateral_columns = (uint32_t)map->count;
 out:
-    device_release(rows);
-    device_release(groups);
-    device_release(lit);
-    device_release(links);
-    device_release(first);
+    conducting_free(&c);
     return rc;
 }
 
@@ -174,6 +211,12 @@ out:
     return rc;
 }
 
+/* Launches that go through all steps of a facet or a column. */
+static device_shape shape_of(const exchange *x, size_t count, double step_s)
+{
+    return (device_shape){{count, 1}, 64, step_s * (double)x->model->step_count};
+}
+
 /* Takes all facets through the weather with what they received so far, then lets them send anew.
  *   is_first   nothing was received yet */
 static status pass(exchange *x, bool is_first)
@@ -182,10 +225,12 @@ static status pass(exchange *x, bool is_first)
     thermal *t = x->model;
     const thermal_span span = span_of(x, x->facet_count);
     const uint32_t received = is_first ? 0 : t->received_columns, n = span.facet_count;
+    device_shape each_step = shape_of(x, t->received_columns, RECEIVED_S);
     layered_record_buffer facets = {0};
 
+    each_step.size[1] = t->step_count;
     TRY(thermal_upload_layered(t, x->facet, x->facet_count, &facets));
-    TRY(layered_run(t->dev, thermal_shape(n),
+    TRY(layered_run(t->dev, thermal_shape(t, n),
                     &(layered_args){.span = span,
                                     .facets = facets,
                                     .forcing = t->forcing,
@@ -197,7 +242,7 @@ static status pass(exchange *x, bool is_first)
                                     .received_columns = received,
                                     .received_w_m2 = t->received_w_m2,
                                     .temperature_k = x->sent_w_m2}));
-    TRY(radiosity_run(t->dev, shape1(n),
+    TRY(radiosity_run(t->dev, shape_of(x, n, SENT_S),
                       &(radiosity_args){.facet_count = n,
                                         .step_count = span.step_count,
                                         .facet = facets,
@@ -208,7 +253,7 @@ static status pass(exchange *x, bool is_first)
     const float_buffer old = t->received_w_m2;
     t->received_w_m2 = x->before_w_m2;
     x->before_w_m2 = old;
-    TRY(irradiation_run(t->dev, shape2(t->received_columns, t->step_count),
+    TRY(irradiation_run(t->dev, each_step,
                         &(irradiation_args){.column_count = t->received_columns,
                                             .facet_count = n,
                                             .view = x->view,
@@ -233,7 +278,7 @@ static status find_change(const exchange *x, bool *out_changes)
 
     NEED(w_m2, STATUS_MEMORY, "no memory for %u facets", columns);
     TRY(device_allocate(t->dev, &most, columns, NULL));
-    TRY(largest_change_run(t->dev, shape1(columns),
+    TRY(largest_change_run(t->dev, shape_of(x, columns, SENT_S),
                            &(largest_change_args){.column_count = columns,
                                                   .row_count = (uint)t->step_count,
                                                   .before = x->before_w_m2,

@@ -2,11 +2,11 @@
 
 #include "clock.h"
 #include "control.h"
+#include "input_file.h"
 #include "number.h"
 #include "page.h"
 #include "saving.h"
 
-#include <errno.h>
 #include <string.h>
 
 enum { LINE_SIZE = 1024, DRAG_STEPS = 10, WORDS = 4, PIXEL_LIMIT = 16384 };
@@ -236,11 +236,13 @@ out:
 status script_run(preview *p, const char *path)
 {
     status rc = STATUS_OK;
-    char line[LINE_SIZE];
-    FILE *file = strcmp(path, "-") ? fopen(path, "r") : stdin;
+    char line[LINE_SIZE], message[1024];
+    FILE *file = stdin;
     bool is_done = true;
 
-    NEED(file, STATUS_FILE, "%s: %s", path, strerror(errno));
+    if (strcmp(path, "-"))
+        NEED(!input_file_open(&file, NULL, path, INPUT_FILE_TEXT_LIMIT, message, sizeof message),
+             STATUS_FILE, "%s", message);
     for (int number = 1; !p->quits && fgets(line, sizeof line, file); number++) {
         line[strcspn(line, "\r\n")] = '\0';
         if (*line && *line != '#') TRY(do_line(p, line, &is_done));
@@ -250,6 +252,6 @@ status script_run(preview *p, const char *path)
         TRY(draw(p));
     }
 out:
-    if (file && file != stdin) fclose(file);
+    if (file != stdin) fclose(file);
     return rc;
 }
