@@ -1,6 +1,7 @@
 #include "facet_shape.h"
 
 #include "interrupt.h"
+#include "vector.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -56,7 +57,7 @@ static void set_facet(geometry *g, uint32_t facet, const double (*position)[3])
     double a[3], azimuth;
 
     area_vector(g, facet, position, a);
-    const double area = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    const double area = vector_length(a);
     const float stored_m2 = (float)area;
     const bool has_area = isfinite(stored_m2) && stored_m2 > 0.0f;
     for (int k = 0; k < 3; k++) g->normal[facet][k] = has_area ? (float)(a[k] / area) : 0.0f;
