@@ -12,7 +12,7 @@ BACKGROUND = np.dtype([("shape_factor", "f4"), ("mean_temperature_k", "f4"), ("m
                        ("met_count", "u4"), ("unused", "u4")])
 CAMERA = np.dtype([(name, "f4", 3) for name in ("position", "corner", "across", "down")]
                   + [(name, "u4") for name in ("first_column", "first_row", "is_orthographic",
-                                               "strata", "seed")] + [("unused", "u4", 3)])
+                                               "samples_per_side", "seed")] + [("unused", "u4", 3)])
 FACET = np.dtype([("normal", "f4", 3), ("material", "u4"), ("rest", "u4", 8)])
 MATERIAL = np.dtype([("before", "f4", 9), ("number", "u4"), ("unused", "u4", 2)])
 
@@ -47,7 +47,7 @@ class RayWorld:
         return arrays
 
     def batches(self, count):
-        """The launch of kernels that sort their rays, kernels/ray_order.h."""
+        """The launch of kernels that sort their rays, kernels/rays/ray_order.h."""
         return (-(-count // (1024 if self.lanes == 16 else 1)), 1)
 
     def bundle(self):
@@ -122,7 +122,7 @@ def points(position, normal):
 
 
 def grid(zenith_step_deg, azimuth_step_deg, weight):
-    """Cells (n, 4) as host/shape_factor.h describes them; weight: a function of the elevation."""
+    """Cells (n, 4) as host/hemisphere/shape_factor.h describes them; weight: a function of the elevation."""
     elevation = np.radians(np.arange(zenith_step_deg / 2, 90, zenith_step_deg))
     azimuth = np.radians(np.arange(azimuth_step_deg / 2, 360, azimuth_step_deg))
     e, a = (x.ravel() for x in np.meshgrid(elevation, azimuth, indexing="ij"))
