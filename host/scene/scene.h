@@ -12,7 +12,7 @@
 #include "mesh/geometry.h"
 #include "scene/view.h"
 #include "sensor/band.h"
-#include "sensor/detector_chain.h"
+#include "sensor/detector_settings.h"
 #include "sky/atmosphere.h"
 #include "sky/site.h"
 #include "weather/forcing.h"
