@@ -21,10 +21,10 @@ uint32_t detector_chain_columns(const detector_chain *d);
 uint32_t detector_chain_rows(const detector_chain *d);
 
 /* Degrades one band.
- *   thesis    Planck's law with the thesis' constants, bands as in band.h
+ *   rule      as the radiance was integrated; with the database's points Planck's law has the thesis' constants
  *   radiance  shape (rows, columns) of the picture, W m-2 sr-1 or its mean per um
  *   out       shape (rows, columns) of the detectors, the same unit */
-status detector_chain_band(detector_chain *d, const band *b, const atmosphere *air, bool thesis,
-                           const float *radiance, float *out);
+status detector_chain_band(detector_chain *d, const band *b, const atmosphere *air,
+                           band_quadrature rule, const float *radiance, float *out);
 
 #endif
