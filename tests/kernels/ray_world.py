@@ -12,7 +12,7 @@ BACKGROUND = np.dtype([("shape_factor", "f4"), ("mean_temperature_k", "f4"), ("m
                        ("met_count", "u4"), ("unused", "u4")])
 CAMERA = np.dtype([(name, "f4", 3) for name in ("position", "corner", "across", "down")]
                   + [(name, "u4") for name in ("first_column", "first_row", "is_orthographic",
-                                               "strata", "seed")] + [("unused", "u4", 3)])
+                                               "samples_per_side", "seed")] + [("unused", "u4", 3)])
 FACET = np.dtype([("normal", "f4", 3), ("material", "u4"), ("rest", "u4", 8)])
 MATERIAL = np.dtype([("before", "f4", 9), ("number", "u4"), ("unused", "u4", 2)])
 

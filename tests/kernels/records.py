@@ -39,7 +39,7 @@ WORLD = record("*ground_facet ground_z_m offset_m *cull_back")
 BACKGROUND = record("shape_factor mean_temperature_k *material *facet point[3] normal[3]"
                     " *met_count *unused")
 CAMERA = record("position[3] corner[3] across[3] down[3] *first_column *first_row"
-                " *is_orthographic *strata *seed *unused[3]")
+                " *is_orthographic *samples_per_side *seed *unused[3]")
 RADIOMETRY = record("*columns *first_pixel *pixel_count *band_count *sample_count *thesis"
                     " *path_count path_zenith_first_deg path_zenith_step_deg *zenith_count"
                     " *azimuth_count zenith_step_deg azimuth_step_deg sun[3] *wants *first_group *knot_count *knot_span")
@@ -47,7 +47,7 @@ AIR = record("*first_row *altitude_count *range_count *is_level ground_z_m *unus
              " range_m[20]")
 TRANSMISSION_PATH = record("length_m[4] temperature_k[4] middle_m[4] vertical_m[4] *medium[4]")
 INCIDENT = record("*cell_count *dome_count *ring_count *light_length *is_of_facets *keeps_sky *unused[2]")
-EMISSIVITY = record("*low *high share *unused")
+EMISSIVITY = record("*low *high fraction *unused")
 BAND = record("*first_sample *sample_count gain offset width_um *is_mean *first_weight *unused")
 DETECTOR = record("*seed *frame *band *columns *count *last_count noise shot fixed_gain fixed_offset"
                   " periodic waves_across waves_down gain offset *unused")

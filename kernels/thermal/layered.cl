@@ -1,0 +1,33 @@
+#include "kernels/thermal/layered_history.h"
+
+/* Launch: (facet_count / LANES_WIDTH, rounded up). facets: shape (facet_count); lateral_w_m2,
+ * received_w_m2: see layered_history.h; the rest as in thermal.cl. */
+kernel void layered(const thermal_span span, global const layered_record *facets,
+                    global const forcing_record *forcing, OPTIONAL global const uint *sunlit,
+                    const uint power_materials, OPTIONAL global const float *power,
+                    const uint lateral_columns, OPTIONAL global const float *lateral_w_m2,
+                    const uint received_columns, OPTIONAL global const float *received_w_m2,
+                    global float *temperature_k)
+{
+    const uint first = get_global_id(0) * LANES_WIDTH;
+    if (first >= span.facet_count) return;
+
+    const layered_world w = {
+        span,  forcing,         sunlit,           first,        power_materials,
+        power, lateral_columns, received_columns, lateral_w_m2, received_w_m2};
+    const layered_body body = layered_body_of(facets, first, span.facet_count);
+    layered_state state = layered_start(w, &body);
+    thermal_load before = layered_load_at(w, &body, 0);
+    lanes earlier_k = state.front_k;
+    for (uint step = 0; step < span.first_step + span.row_count; step++) {
+        if (step > 0) {
+            earlier_k = state.front_k;
+            before = layered_go(w, &body, &state, before, step);
+        }
+        if (step < span.first_step) continue;
+        const lanes now_k = earlier_k + span.weight * (state.front_k - earlier_k);
+        lanes_store(body.stated_k > (lanes)0.0f ? body.stated_k : now_k,
+                    temperature_k + (size_t)(step - span.first_step) * span.facet_count, first,
+                    span.facet_count);
+    }
+}
