@@ -95,8 +95,8 @@ def main():
     device = [d for p in cl.get_platforms() for d in p.get_devices()][0]
     context = cl.Context([device])
     start = time.perf_counter()
-    source = (ROOT / "kernels/thermal.cl").read_text()
-    program = cl.Program(context, source).build(f"-cl-std=CL1.2 -I {ROOT / 'kernels'}")
+    source = (ROOT / "kernels/thermal/thermal.cl").read_text()
+    program = cl.Program(context, source).build(f"-cl-std=CL1.2 -I {ROOT}")
     kernel = program.thermal
     print(f"{device.name}, {device.max_compute_units} compute units, {STEPS - 1} steps; "
           f"the kernel was built in {time.perf_counter() - start:.2f} s")

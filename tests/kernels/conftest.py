@@ -1,11 +1,8 @@
 import collections
-import pathlib
-
+import probe
 import pyopencl as cl
 import pytest
 from ray_world import RayWorld
-
-KERNELS = pathlib.Path(__file__).resolve().parents[2] / "kernels"
 
 OpenCL = collections.namedtuple("OpenCL", "context queue build")
 
@@ -25,13 +22,13 @@ def ray_lanes(request, monkeypatch):
 
 @pytest.fixture(scope="session")
 def opencl(context):
-    """context, queue and build(name): the kernel of kernels/NAME.cl."""
+    """context, queue and build(name): the kernel of kernels/.../NAME.cl."""
     built = {}
 
     def build(name, options=""):
         if (name, options) not in built:
-            source = (KERNELS / f"{name}.cl").read_text()
-            program = cl.Program(context, source).build(f"-cl-std=CL1.2 -I {KERNELS} {options}")
+            source = (probe.ROOT / probe.find(f"{name}.cl")).read_text()
+            program = cl.Program(context, source).build(f"-cl-std=CL1.2 -I {probe.ROOT} {options}")
             built[name, options] = getattr(program, name)
         return built[name, options]
 

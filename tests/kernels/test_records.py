@@ -11,10 +11,10 @@ def device_layout(opencl, name, fields):
     """Offset and size of every field, and last the record's size, as the device has them."""
     lines = "".join(f"out[{2 * i}] = (global char *)&r->{field} - (global char *)r;"
                     f"out[{2 * i + 1}] = sizeof(r->{field});" for i, field in enumerate(fields))
-    source = ('#include "records.h"\n'
+    source = ('#include "kernels/records.h"\n'
               f"kernel void layout(global const {name} *r, global uint *out)"
               f"{{ {lines} out[{2 * len(fields)}] = sizeof(*r); }}")
-    program = cl.Program(opencl.context, source).build(f"-cl-std=CL1.2 -I {probe.KERNELS}")
+    program = cl.Program(opencl.context, source).build(f"-cl-std=CL1.2 -I {probe.ROOT}")
     record = probe.copy(opencl, np.zeros(512, np.uint8))
     return probe.launch(opencl, program.layout, 1, [record], 2 * len(fields) + 1, np.uint32)
 
@@ -35,7 +35,7 @@ def test_a_record_is_a_multiple_of_16_bytes(name):
 
 
 def test_every_record_of_the_header_has_a_twin():
-    text = (probe.KERNELS / "records.h").read_text()
+    text = (probe.ROOT / "kernels/records.h").read_text()
 
     sized = {line.split("(")[1].split(",")[0] for line in text.splitlines()
              if line.startswith("RECORD_SIZE(")}

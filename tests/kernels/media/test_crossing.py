@@ -1,6 +1,5 @@
 """Lengths inside transmissive bodies, against closed forms of chords."""
 import pathlib
-import sys
 
 import numpy as np
 import probe
@@ -9,14 +8,13 @@ import pytest
 import records
 import tree
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import cases  # noqa: E402
+import cases
 
 BODIES = records.record("low[3] high[3] altitude_m *level_count stated_k[4] broad_band_per_m[4]"
                         " *scatters[4]")
 LEVELS = np.float32([[300, 290], [1300, 280], [2300, 285]])
 BODY = """
-#include "crossing.h"
+#include "kernels/media/crossing.h"
 kernel void probe(const medium_world bodies, global const bvh_node *nodes,
                   global const bvh_block *blocks, global const uint *medium,
                   global const float *level, global const float *rays, global transmission_path *out)
@@ -36,7 +34,7 @@ kernel void probe(const medium_world bodies, global const bvh_node *nodes,
 @pytest.fixture
 def paths(opencl):
     """paths(mesh, medium, origin, direction, limit): a record per ray. medium: per facet or one."""
-    program = cl.Program(opencl.context, BODY).build(f"-cl-std=CL1.2 -I {probe.KERNELS}")
+    program = cl.Program(opencl.context, BODY).build(f"-cl-std=CL1.2 -I {probe.ROOT}")
 
     def run(mesh, medium, origin, direction, limit=np.inf, stated_k=(0, 0, 0, 0)):
         nodes, blocks, low, high = tree.build(*mesh)

@@ -1,6 +1,5 @@
 """Shares of the sun that transmissive bodies let through, against exp(-extinction x length)."""
 import pathlib
-import sys
 
 import numpy as np
 import probe
@@ -8,9 +7,8 @@ import ray_world
 import test_sun_history as history
 import tree
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import cases  # noqa: E402
-import test_crossing  # noqa: E402
+import cases
+import test_crossing
 
 UP = (0, 0, 1)
 

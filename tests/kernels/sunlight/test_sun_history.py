@@ -1,5 +1,4 @@
 import pathlib
-import sys
 
 import numpy as np
 import probe
@@ -8,8 +7,7 @@ import records
 from ray_world import NONE, RayWorld, points
 from records import NO_VALUE
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import cases  # noqa: E402
+import cases
 
 DAY = np.dtype([("slot_count", "u4"), ("word_count", "u4"), ("nearest", "u4"),
                 ("since_min", "f4"), ("step_min", "f4"), ("stride", "u4"), ("unused", "u4", 2)])

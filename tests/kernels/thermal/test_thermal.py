@@ -1,5 +1,4 @@
 import pathlib
-import sys
 
 import numpy as np
 import pyopencl as cl
@@ -7,10 +6,9 @@ import pytest
 import thermal_reference as reference
 from thermal_reference import FACET, FORCING, MATERIAL, SIGMA, SPAN
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import table_d1  # noqa: E402
+import table_d1
 
-KERNELS = pathlib.Path(__file__).resolve().parents[2] / "kernels"
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 STEP_S = 900.0
 ASPHALT = {"density_kg_m3": 2114.0, "specific_heat_j_kg_k": 920.0, "conductivity_w_m_k": 0.689}
 
@@ -131,10 +129,10 @@ def two_days():
 def test_numpy_and_device_agree_on_where_fields_lie(context, name, dtype):
     fields = "".join(f"out[{i}] = (global char *)&r->{field} - (global char *)r;"
                      for i, field in enumerate(dtype.names))
-    source = ('#include "thermal.h"\n'
+    source = ('#include "kernels/thermal/thermal.h"\n'
               f"kernel void probe(global const {name} *r, global uint *out)"
               f"{{ {fields} out[{len(dtype.names)}] = sizeof(*r); }}")
-    program = cl.Program(context, source).build(f"-cl-std=CL1.2 -I {KERNELS}")
+    program = cl.Program(context, source).build(f"-cl-std=CL1.2 -I {ROOT}")
     out = np.zeros(len(dtype.names) + 1, np.uint32)
     memory = cl.Buffer(context, cl.mem_flags.READ_WRITE, max(out.nbytes, dtype.itemsize))
     with cl.CommandQueue(context) as queue:
