@@ -1,16 +1,16 @@
 #include "render/render_report.h"
 
+#include "base/interrupt.h"
 #include "files/json_text.h"
 
 #include <errno.h>
 #include <math.h>
-#include <sha256.h>
+#include <sha2.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
-enum { LEAST_DIGITS = 15 };
+enum { LEAST_DIGITS = 15, HASHED_AT_ONCE = 1 << 20 };
 
 /* Adds a value; where memory ends the list becomes NULL, and so does all that is made of it. */
 static void append(json_t **list, json_t *value)
@@ -182,11 +182,24 @@ out:
 status render_report_hash(const char *path, char out_sha256[65], uint64_t *out_bytes)
 {
     status rc = STATUS_OK;
-    struct stat found;
+    FILE *file = fopen(path, "rb");
+    uint8_t *some = malloc(HASHED_AT_ONCE);
+    SHA2_CTX context;
+    size_t size;
 
-    NEED(stat(path, &found) == 0, STATUS_FILE, "%s: %s", path, strerror(errno));
-    NEED(SHA256File(path, out_sha256), STATUS_FILE, "%s: %s", path, strerror(errno));
-    *out_bytes = (uint64_t)found.st_size;
+    NEED(file, STATUS_FILE, "%s: %s", path, strerror(errno));
+    NEED(some, STATUS_MEMORY, "%s: no memory to read it", path);
+    SHA256Init(&context);
+    *out_bytes = 0;
+    while ((size = fread(some, 1, HASHED_AT_ONCE, file)) > 0) {
+        TRY(interrupt_check());
+        SHA256Update(&context, some, size);
+        *out_bytes += size;
+    }
+    NEED(!ferror(file), STATUS_FILE, "%s: %s", path, strerror(errno));
+    SHA256End(&context, out_sha256);
 out:
+    free(some);
+    if (file) fclose(file);
     return rc;
 }
