@@ -1,16 +1,13 @@
 #include "render/render_report.h"
 
-#include "base/interrupt.h"
 #include "files/json_text.h"
 
-#include <errno.h>
 #include <math.h>
-#include <sha2.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEAST_DIGITS = 15, HASHED_AT_ONCE = 1 << 20 };
+enum { LEAST_DIGITS = 15 };
 
 /* Adds a value; where memory ends the list becomes NULL, and so does all that is made of it. */
 static void append(json_t **list, json_t *value)
@@ -104,7 +101,7 @@ static json_t *inputs_of(const render_report *report)
     for (size_t i = 0; i < report->input_count; i++) {
         const render_report_input *input = &report->input[i];
         append(&list, json_pack("{s:o, s:s, s:I}", "path", json_text(input->path), "sha256",
-                                input->sha256, "bytes", (json_int_t)input->bytes));
+                                input->hash.sha256, "bytes", (json_int_t)input->hash.bytes));
     }
     return list;
 }
@@ -176,30 +173,5 @@ status render_report_write(output_folder *folder, const char *name, const render
     TRY(output_file_close(file));
 out:
     json_decref(document);
-    return rc;
-}
-
-status render_report_hash(const char *path, char out_sha256[65], uint64_t *out_bytes)
-{
-    status rc = STATUS_OK;
-    FILE *file = fopen(path, "rb");
-    uint8_t *some = malloc(HASHED_AT_ONCE);
-    SHA2_CTX context;
-    size_t size;
-
-    NEED(file, STATUS_FILE, "%s: %s", path, strerror(errno));
-    NEED(some, STATUS_MEMORY, "%s: no memory to read it", path);
-    SHA256Init(&context);
-    *out_bytes = 0;
-    while ((size = fread(some, 1, HASHED_AT_ONCE, file)) > 0) {
-        TRY(interrupt_check());
-        SHA256Update(&context, some, size);
-        *out_bytes += size;
-    }
-    NEED(!ferror(file), STATUS_FILE, "%s: %s", path, strerror(errno));
-    SHA256End(&context, out_sha256);
-out:
-    free(some);
-    if (file) fclose(file);
     return rc;
 }
