@@ -30,10 +30,10 @@ static void read_name(scene_reader *reader)
     const char *name = "";
 
     scene_table_require(&t, "name", "the name of the scene, from which files are named");
-    scene_table_string(&t, "name", &name);
-    if (strcspn(name, "/\\\n") != strlen(name) || *name == '.')
+    if (scene_table_name(&t, "name", "/\\", "a name for files, without slashes", &name) &&
+        *name == '.')
         scene_fail(reader, toml_node_get(reader->root, "name"),
-                   "name: found \"%s\", expected a name for files, without slashes", name);
+                   "name: found \"%s\", expected a name for files, not beginning with a dot", name);
     reader->s->name = strdup(name);
 }
 

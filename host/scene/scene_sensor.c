@@ -144,11 +144,7 @@ static const char *read_band_name(scene_table *t)
     const char *name = "";
 
     scene_table_require(t, "name", "a name for the band's planes");
-    scene_table_string(t, "name", &name);
-    if (strcspn(name, " ,{}[]/\\\n") != strlen(name))
-        scene_fail(t->reader, t->node,
-                   "%s.name: found \"%s\", expected a word without blanks , { } [ ] /",
-                   toml_node_name(t->node), name);
+    scene_table_name(t, "name", " ,{}[]/\\", "a word without blanks , { } [ ] /", &name);
     return name;
 }
 

@@ -132,6 +132,25 @@ bool scene_table_string(scene_table *t, const char *key, const char **out)
     return false;
 }
 
+static bool is_name(const char *text)
+{
+    for (const char *at = text; *at; at++)
+        if ((unsigned char)*at < ' ' || *at == 0x7f) return false;
+    return strlen(text) <= SCENE_NAME_LENGTH;
+}
+
+bool scene_table_name(scene_table *t, const char *key, const char *not_in_it, const char *expected,
+                      const char **out)
+{
+    if (!scene_table_string(t, key, out)) return false;
+    if (is_name(*out) && !strpbrk(*out, not_in_it)) return true;
+    const toml_node *node = toml_node_get(t->node, key);
+    scene_fail(t->reader, node,
+               "%s: found %s, expected %s, without control characters, of at most %d bytes",
+               toml_node_name(node), toml_node_text(node), expected, SCENE_NAME_LENGTH);
+    return false;
+}
+
 bool scene_table_bool(scene_table *t, const char *key, bool *out)
 {
     char message[512];
