@@ -2,6 +2,7 @@
 
 #include "base/interrupt.h"
 #include "base/number.h"
+#include "meshio/cancel.h"
 #include "meshio/input_file.h"
 
 #include <ctype.h>
@@ -10,8 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { PORTION = 1 << 24 }; /* bytes that are read at once */
 
 struct record_file {
     char *path, *text;
@@ -25,24 +24,14 @@ static status read_whole(record_file *file)
 {
     status rc = STATUS_OK;
     char message[1024];
-    FILE *stream = NULL;
     size_t size;
 
-    NEED(input_file_open(&stream, &size, file->path, INPUT_FILE_TEXT_LIMIT, message,
+    cancel_ask(interrupt_is_set);
+    NEED(input_file_read(&file->text, &size, file->path, INPUT_FILE_TEXT_LIMIT, message,
                          sizeof message) == 0,
          STATUS_FILE, "%s", message);
-    file->text = malloc(size + 1);
-    NEED(file->text, STATUS_MEMORY, "%s: no memory to read it", file->path);
-    for (size_t at = 0; at < size; at += PORTION) {
-        const size_t wanted = size - at < PORTION ? size - at : PORTION;
-        TRY(interrupt_check());
-        NEED(fread(file->text + at, 1, wanted, stream) == wanted, STATUS_FILE, "%s: cannot be read",
-             file->path);
-    }
-    file->text[size] = '\0';
     NEED(strlen(file->text) == size, STATUS_FILE, "%s: is binary, expected text", file->path);
 out:
-    if (stream) fclose(stream);
     return rc;
 }
 

@@ -207,10 +207,12 @@ status scene_read(scene **out, const char *path, const char *const *setting, siz
     status rc = STATUS_OK;
     char message[2048];
     toml_file *file = NULL;
+    input_hashes *hashes = NULL;
     scene_reader reader = {.s = calloc(1, sizeof(scene))};
 
     NEED(reader.s, STATUS_MEMORY, "%s: no memory to read it", path);
     TRY(set_path(reader.s, path));
+    TRY(input_hashes_open(&hashes));
     NEED(toml_file_read(&file, path, setting, setting_count, message, sizeof message) == 0,
          STATUS_FORMAT, "%s", message);
     reader.root = toml_file_root(file);
@@ -220,9 +222,12 @@ status scene_read(scene **out, const char *path, const char *const *setting, siz
         rc = STATUS_FORMAT;
         goto out;
     }
+    for (size_t i = 0; i < reader.s->input_count; i++)
+        TRY(input_hashes_find(hashes, reader.s->inputs[i].path, &reader.s->inputs[i].hash));
     *out = reader.s;
     reader.s = NULL;
 out:
+    input_hashes_free(hashes);
     toml_file_free(file);
     scene_free(reader.s);
     return rc;

@@ -4,6 +4,7 @@
 #define SCENE_H
 
 #include "base/name_table.h"
+#include "files/input_hash.h"
 #include "kernels/media/transmission.h"
 #include "material/emissivity.h"
 #include "material/heat_schedule.h"
@@ -49,10 +50,11 @@ typedef struct scene_material {
 /* "fixed", "therm", "layered". */
 const char *scene_thermal_name(scene_thermal thermal);
 
-/* A file that the scene was read from. */
+/* A file that the scene was read from, and the hash of what was read. */
 typedef struct scene_input {
     char *name; /* as the scene states it */
     char *path; /* where it was found */
+    input_hash hash;
 } scene_input;
 
 typedef struct scene {

@@ -45,12 +45,12 @@ static inline uint commonest(const hemisphere_count *c, global const material_re
  * Launch: (count / RAY_LANES, rounded up). cell: (cell_count, 4); facet, temperature_k: per facet,
  * the ground's too; material: per material; hit: (count); met: (cell_count, count) as hemisphere.cl
  * writes it; order: (count), which point of out each of these is, NULL: the same; out: (count). */
-kernel void background(const uint count, const uint cell_count, const world_record world,
-                       global const bvh_node *nodes, global const bvh_block *blocks,
-                       global const float *cell, global const facet_record *facet,
-                       global const float *temperature_k, global const material_record *material,
-                       global const hit_record *hit, global const uint *met,
-                       OPTIONAL global const uint *order, global background_record *out)
+SHARED_BODY kernel void
+background(const uint count, const uint cell_count, const world_record world,
+           global const bvh_node *nodes, global const bvh_block *blocks, global const float *cell,
+           global const facet_record *facet, global const float *temperature_k,
+           global const material_record *material, global const hit_record *hit,
+           global const uint *met, OPTIONAL global const uint *order, global background_record *out)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= count) return;

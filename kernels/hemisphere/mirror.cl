@@ -5,11 +5,12 @@
  * (shape factor 0) or the sky (1).
  * Launch: (count). facet, temperature_k: per facet, the ground's too; material: per material;
  * hit: per pixel; background: per pixel, changed where the target has a specular share */
-kernel void mirror(const uint count, const camera_record camera, const world_record world,
-                   global const bvh_node *nodes, global const bvh_block *blocks,
-                   global const facet_record *facet, global const float *temperature_k,
-                   global const material_record *material, global const hit_record *hit,
-                   global background_record *background)
+SHARED_BODY kernel void mirror(const uint count, const camera_record camera,
+                               const world_record world, global const bvh_node *nodes,
+                               global const bvh_block *blocks, global const facet_record *facet,
+                               global const float *temperature_k,
+                               global const material_record *material, global const hit_record *hit,
+                               global background_record *background)
 {
     const uint i = get_global_id(0);
     if (i >= count) return;

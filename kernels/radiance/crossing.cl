@@ -21,14 +21,13 @@ static ray between(const world_record *world, const float *from, const float *no
  * hit, background_hit: hit_record; lit, background_lit: 0 or 1: per pixel
  * paths: shape (TRANSMISSION_PATHS, pixel_count)
  * direct, background_direct: per pixel, what of the sun's broad band reaches them */
-kernel void crossing(const radiometry_record frame, const camera_record camera,
-                     const world_record world, const medium_world media,
-                     global const bvh_node *nodes, global const bvh_block *blocks,
-                     global const uint *medium, global const float *level,
-                     global const hit_record *hit, global const hit_record *background_hit,
-                     global const float *lit, global const float *background_lit,
-                     global transmission_path *paths, global float *direct,
-                     global float *background_direct)
+SHARED_BODY kernel void
+crossing(const radiometry_record frame, const camera_record camera, const world_record world,
+         const medium_world media, global const bvh_node *nodes, global const bvh_block *blocks,
+         global const uint *medium, global const float *level, global const hit_record *hit,
+         global const hit_record *background_hit, global const float *lit,
+         global const float *background_lit, global transmission_path *paths, global float *direct,
+         global float *background_direct)
 {
     const uint pixel = get_global_id(0);
     if (pixel >= frame.pixel_count) return;

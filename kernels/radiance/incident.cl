@@ -96,16 +96,16 @@ static void add_gloss(around from, radiometry_record frame, camera_record camera
  * gloss_words: (LOBE_RAYS, pixel_count), see gloss.cl; NULL where nothing is rough
  * spectra, emissivity: as radiometry.cl, of the frame's samples: the knots
  * out: (pixel_count, 2, sample_count), W m-2 sr-1 um-1: of the sky, and of facets and ground */
-kernel void incident(const radiometry_record frame, const camera_record camera,
-                     const incident_record how, global const float *cell, global const float *dome,
-                     global const facet_record *facets, global const material_record *materials,
-                     global const float *temperature_k,
-                     global const background_record *facet_background, global const float *light,
-                     global const hit_record *hit, OPTIONAL global const uint *order,
-                     OPTIONAL global const background_record *background,
-                     OPTIONAL global const float *background_lit, global const uint *met,
-                     OPTIONAL global const uint *gloss_words, global const float *spectra,
-                     global const float *emissivity, global float *out)
+SHARED_BODY kernel void
+incident(const radiometry_record frame, const camera_record camera, const incident_record how,
+         global const float *cell, global const float *dome, global const facet_record *facets,
+         global const material_record *materials, global const float *temperature_k,
+         global const background_record *facet_background, global const float *light,
+         global const hit_record *hit, OPTIONAL global const uint *order,
+         OPTIONAL global const background_record *background,
+         OPTIONAL global const float *background_lit, global const uint *met,
+         OPTIONAL global const uint *gloss_words, global const float *spectra,
+         global const float *emissivity, global float *out)
 {
     const uint begin = get_global_id(0) * RAY_GROUPS * LANES_WIDTH;
     const uint end = min(begin + RAY_GROUPS * LANES_WIDTH, frame.pixel_count);

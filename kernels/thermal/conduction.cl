@@ -169,14 +169,14 @@ static uint go_on(const patch_run *p, conduction_progress *at, global float *out
  * groups: (facet_count / LANES_WIDTH), numbers: (9, facet_count), both to work with; progress: (patch_count);
  * launched again until all patches are done;
  * lateral_w_m2: (2 steps, facet_count), see layered_history.h. */
-kernel void conduction(const thermal_span span, const uint patch_count,
-                       global const uint *patch_first, global const layered_record *facets,
-                       global const conduction_record *links, global const forcing_record *forcing,
-                       OPTIONAL global const uint *sunlit, const uint power_materials,
-                       OPTIONAL global const float *power, const uint received_columns,
-                       OPTIONAL global const float *received_w_m2, global conduction_group *groups,
-                       global float *numbers, global conduction_progress *progress,
-                       global float *lateral_w_m2)
+SHARED_BODY kernel void
+conduction(const thermal_span span, const uint patch_count, global const uint *patch_first,
+           global const layered_record *facets, global const conduction_record *links,
+           global const forcing_record *forcing, OPTIONAL global const uint *sunlit,
+           const uint power_materials, OPTIONAL global const float *power,
+           const uint received_columns, OPTIONAL global const float *received_w_m2,
+           global conduction_group *groups, global float *numbers,
+           global conduction_progress *progress, global float *lateral_w_m2)
 {
     const uint patch = get_global_id(0);
     const size_t n = span.facet_count;

@@ -2,12 +2,12 @@
 
 /* Launch: (facet_count / LANES_WIDTH, rounded up). facets: shape (facet_count); lateral_w_m2,
  * received_w_m2: see layered_history.h; the rest as in thermal.cl. */
-kernel void layered(const thermal_span span, global const layered_record *facets,
-                    global const forcing_record *forcing, OPTIONAL global const uint *sunlit,
-                    const uint power_materials, OPTIONAL global const float *power,
-                    const uint lateral_columns, OPTIONAL global const float *lateral_w_m2,
-                    const uint received_columns, OPTIONAL global const float *received_w_m2,
-                    global float *temperature_k)
+SHARED_BODY kernel void
+layered(const thermal_span span, global const layered_record *facets,
+        global const forcing_record *forcing, OPTIONAL global const uint *sunlit,
+        const uint power_materials, OPTIONAL global const float *power, const uint lateral_columns,
+        OPTIONAL global const float *lateral_w_m2, const uint received_columns,
+        OPTIONAL global const float *received_w_m2, global float *temperature_k)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= span.facet_count) return;

@@ -20,10 +20,11 @@ static void set_bodies(thermal_body *body, lanes *stated_k, uint *material, ther
  * facets: shape (facet_count), thickness above 0 and a material of `materials` unless its
  * temperature is stated; forcing: (first_step + row_count), span.step_s apart; sunlit:
  * see lit.h; power: shape (steps, power_materials), see lit.h; temperature_k: (row_count, facet_count). */
-kernel void thermal(const thermal_span span, global const facet_record *facets,
-                    global const material_record *materials, global const forcing_record *forcing,
-                    OPTIONAL global const uint *sunlit, const uint power_materials,
-                    OPTIONAL global const float *power, global float *temperature_k)
+SHARED_BODY kernel void thermal(const thermal_span span, global const facet_record *facets,
+                                global const material_record *materials,
+                                global const forcing_record *forcing,
+                                OPTIONAL global const uint *sunlit, const uint power_materials,
+                                OPTIONAL global const float *power, global float *temperature_k)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= span.facet_count) return;
