@@ -135,29 +135,13 @@ void bodies_free(bodies *b)
     free(b);
 }
 
-crossing_world bodies_world(const bodies *b)
+medium_tables bodies_tables(const bodies *b)
 {
-    return b->world;
-}
-
-bvh_node_buffer bodies_nodes(const bodies *b)
-{
-    return b->tree.node;
-}
-
-bvh_block_buffer bodies_blocks(const bodies *b)
-{
-    return b->tree.block;
-}
-
-uint_buffer bodies_medium(const bodies *b)
-{
-    return b->medium;
-}
-
-float_buffer bodies_levels(const bodies *b)
-{
-    return b->level;
+    return (medium_tables){.bodies = b->world,
+                           .body_nodes = b->tree.node,
+                           .body_blocks = b->tree.block,
+                           .medium_row = b->medium,
+                           .air_level = b->level};
 }
 
 bool bodies_scatter(const bodies *b)

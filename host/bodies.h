@@ -19,12 +19,8 @@ void bodies_free(bodies *b);
  *   out   shape (facet_count) */
 void bodies_leave_out(const struct scene *s, uint32_t (*out)[4]);
 
-/* What rays need of it. */
-crossing_world bodies_world(const bodies *b);
-bvh_node_buffer bodies_nodes(const bodies *b);
-bvh_block_buffer bodies_blocks(const bodies *b);
-uint_buffer bodies_medium(const bodies *b);  /* per facet: its material's row */
-float_buffer bodies_levels(const bodies *b); /* shape (level_count, 2): m, K */
+/* What kernels need of it. */
+medium_tables bodies_tables(const bodies *b);
 
 /* True if light that a body takes may come out again. */
 bool bodies_scatter(const bodies *b);

@@ -78,23 +78,19 @@ static status conduct_map(const exchange *x, const conduction_map *map,
     TRY(upload_lit(x, map->facet, n, &lit));
     TRY(device_allocate(t->dev, &groups, n, NULL));
     TRY(device_allocate(t->dev, &rows, n * WORK_ROWS, NULL));
-    TRY(device_allocate(t->dev, &t->lateral_w_m2, n * 2 * t->step_count, NULL));
+    TRY(device_allocate(t->dev, &t->exchange.lateral_w_m2, n * 2 * t->step_count, NULL));
     TRY(conduction_run(t->dev, shape,
                        &(conduction_args){.span = span,
                                           .patch_count = map->patch_count,
                                           .patch_first = first,
                                           .facets = facets,
                                           .links = links,
-                                          .forcing = t->forcing,
-                                          .sunlit = lit,
-                                          .power_materials = t->power_materials,
-                                          .power = t->power,
-                                          .received_columns = t->received_columns,
-                                          .received_w_m2 = t->received_w_m2,
+                                          .load = thermal_loads(t, lit),
+                                          .exchange = t->exchange,
                                           .groups = groups,
                                           .numbers = rows,
-                                          .lateral_w_m2 = t->lateral_w_m2}));
-    t->lateral_columns = (uint32_t)n;
+                                          .out_w_m2 = t->exchange.lateral_w_m2}));
+    t->exchange.lateral_columns = (uint32_t)n;
 out:
     device_release(rows);
     device_release(groups);
@@ -148,10 +144,10 @@ static status keep_views(exchange *x, const view_factors *f)
     TRY(device_allocate(t->dev, &x->view, columns, kept));
     TRY(device_allocate(t->dev, &x->seen, f->share_count, f->seen));
     TRY(device_allocate(t->dev, &x->share, f->share_count, f->share));
-    TRY(device_allocate(t->dev, &t->received_w_m2, columns * t->step_count, NULL));
+    TRY(device_allocate(t->dev, &t->exchange.received_w_m2, columns * t->step_count, NULL));
     TRY(device_allocate(t->dev, &x->before_w_m2, columns * t->step_count, NULL));
     TRY(device_allocate(t->dev, &x->sent_w_m2, x->facet_count * t->step_count, NULL));
-    t->received_columns = columns;
+    t->exchange.received_columns = columns;
 out:
     free(kept);
     return rc;
@@ -181,42 +177,38 @@ static status pass(exchange *x, bool is_first)
     status rc = STATUS_OK;
     thermal *t = x->model;
     const thermal_span span = span_of(x, x->facet_count);
-    const uint32_t received = is_first ? 0 : t->received_columns, n = span.facet_count;
+    const uint32_t n = span.facet_count;
+    exchange_tables before = t->exchange;
     layered_record_buffer facets = {0};
 
+    if (is_first) before.received_columns = 0;
     TRY(thermal_upload_layered(t, x->facet, x->facet_count, &facets));
     TRY(layered_run(t->dev, thermal_shape(n),
                     &(layered_args){.span = span,
                                     .facets = facets,
-                                    .forcing = t->forcing,
-                                    .sunlit = x->lit,
-                                    .power_materials = t->power_materials,
-                                    .power = t->power,
-                                    .lateral_columns = t->lateral_columns,
-                                    .lateral_w_m2 = t->lateral_w_m2,
-                                    .received_columns = received,
-                                    .received_w_m2 = t->received_w_m2,
+                                    .load = thermal_loads(t, x->lit),
+                                    .exchange = before,
                                     .temperature_k = x->sent_w_m2}));
     TRY(radiosity_run(t->dev, shape1(n),
                       &(radiosity_args){.facet_count = n,
                                         .step_count = span.step_count,
                                         .facet = facets,
                                         .forcing = t->forcing,
-                                        .received_columns = received,
-                                        .received_w_m2 = t->received_w_m2,
+                                        .received_columns = before.received_columns,
+                                        .received_w_m2 = before.received_w_m2,
                                         .rows = x->sent_w_m2}));
-    const float_buffer old = t->received_w_m2;
-    t->received_w_m2 = x->before_w_m2;
+    const float_buffer old = t->exchange.received_w_m2;
+    t->exchange.received_w_m2 = x->before_w_m2;
     x->before_w_m2 = old;
-    TRY(irradiation_run(t->dev, shape2(t->received_columns, t->step_count),
-                        &(irradiation_args){.column_count = t->received_columns,
+    TRY(irradiation_run(t->dev, shape2(t->exchange.received_columns, t->step_count),
+                        &(irradiation_args){.column_count = t->exchange.received_columns,
                                             .facet_count = n,
                                             .view = x->view,
                                             .seen = x->seen,
                                             .share = x->share,
                                             .forcing = t->forcing,
                                             .sent_w_m2 = x->sent_w_m2,
-                                            .received_w_m2 = t->received_w_m2}));
+                                            .received_w_m2 = t->exchange.received_w_m2}));
 out:
     device_release(facets);
     return rc;
@@ -227,7 +219,7 @@ static status find_change(const exchange *x, bool *out_changes)
 {
     status rc = STATUS_OK;
     const thermal *t = x->model;
-    const uint32_t columns = t->received_columns;
+    const uint32_t columns = t->exchange.received_columns;
     float_buffer most = {0};
     float *w_m2 = malloc(columns * sizeof *w_m2);
 
@@ -237,7 +229,7 @@ static status find_change(const exchange *x, bool *out_changes)
                            &(largest_change_args){.column_count = columns,
                                                   .row_count = (uint)t->step_count,
                                                   .before = x->before_w_m2,
-                                                  .after = t->received_w_m2,
+                                                  .after = t->exchange.received_w_m2,
                                                   .out = most}));
     TRY(device_download(t->dev, most, columns, w_m2));
     *out_changes = false;
@@ -252,7 +244,7 @@ out:
 static status send_and_receive(exchange *x)
 {
     status rc = STATUS_OK;
-    bool changes = x->model->received_columns > 0;
+    bool changes = x->model->exchange.received_columns > 0;
 
     for (int i = 0; i < PASSES && changes; i++) {
         TRY(pass(x, i == 0));

@@ -171,24 +171,18 @@ void render_tile_free(render_tile_memory *t)
 static status trace(const render_tile_memory *t, const render_shared *r)
 {
     status rc = STATUS_OK;
-    const float_buffer facet_k = temperature_of_facets(r->warmth);
-    const shape_factor_tables tables = {r->tables.facets, facet_k, r->tables.materials};
     const point_tile where = {t->first, t->count, r->frame.columns * t->samples};
 
     TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count, t->hit));
     TRY(sunlight_cast(r->rays, r->frame.sun, t->count, t->hit, t->lit));
     TRY(point_order_run(r->dev, t->hit, r->tables.facet, &where, t->points.order, t->points.hit));
-    TRY(shape_factor_run(r->is_coarse ? r->coarse_grid : r->grid, r->rays, &tables,
+    TRY(shape_factor_run(r->is_coarse ? r->coarse_grid : r->grid, r->rays, &r->surfaces,
                          has_incident(r) ? r->frame.sun : NULL, &t->points, t->background));
     TRY(mirror_run(r->dev, shape1(t->count),
                    &(mirror_args){.count = t->count,
                                   .camera = r->camera,
-                                  .world = ray_scene_world(r->rays),
-                                  .nodes = ray_scene_nodes(r->rays),
-                                  .blocks = ray_scene_blocks(r->rays),
-                                  .facet = r->tables.facets,
-                                  .temperature_k = facet_k,
-                                  .material = r->tables.materials,
+                                  .tree = ray_scene_tree(r->rays),
+                                  .surface = r->surfaces,
                                   .hit = t->hit,
                                   .background = t->background}));
     TRY(background_hit_run(r->dev, shape1(t->count),
@@ -200,6 +194,17 @@ out:
     return rc;
 }
 
+static pixel_tables pixels_of(const render_tile_memory *t)
+{
+    return (pixel_tables){.hit = t->hit,
+                          .background = t->background,
+                          .temperature_k = t->temperature_k,
+                          .sunlit = t->lit,
+                          .background_sunlit = t->background_lit,
+                          .paths = t->body_paths,
+                          .incident = t->incident};
+}
+
 /* What stands on the pixels' ways to sensor, sun and background. */
 static status cross_bodies(const render_tile_memory *t, const render_shared *r,
                            const radiometry_record *frame)
@@ -209,27 +214,17 @@ static status cross_bodies(const render_tile_memory *t, const render_shared *r,
     if (bodies_scatter(r->bodies))
         TRY(cloud_ground_run(r->dev, shape1(frame->sample_count),
                              &(cloud_ground_args){.frame = *frame,
-                                                  .world = ray_scene_world(r->rays),
-                                                  .facets = r->tables.facets,
-                                                  .materials = r->tables.materials,
-                                                  .temperature_k = temperature_of_facets(r->warmth),
-                                                  .spectra = r->tables.spectrum_rows,
-                                                  .emissivity = r->tables.emissivity_rows,
-                                                  .extinction = r->tables.extinction_rows}));
+                                                  .world = ray_scene_tree(r->rays).world,
+                                                  .surface = r->surfaces,
+                                                  .spectra = r->tables.spectra,
+                                                  .out_extinction = r->tables.spectra.extinction}));
     TRY(crossing_run(r->dev, shape1(t->count),
                      &(crossing_args){.frame = *frame,
                                       .camera = r->camera,
-                                      .world = ray_scene_world(r->rays),
-                                      .bodies = bodies_world(r->bodies),
-                                      .nodes = bodies_nodes(r->bodies),
-                                      .blocks = bodies_blocks(r->bodies),
-                                      .medium = bodies_medium(r->bodies),
-                                      .level = bodies_levels(r->bodies),
-                                      .hit = t->hit,
-                                      .background_hit = t->background_hit,
-                                      .lit = t->lit,
-                                      .background_lit = t->background_lit,
-                                      .paths = t->body_paths,
+                                      .world = ray_scene_tree(r->rays).world,
+                                      .medium = bodies_tables(r->bodies),
+                                      .pixel = pixels_of(t),
+                                      .out_paths = t->body_paths,
                                       .direct = t->direct,
                                       .background_direct = t->background_direct}));
 out:
@@ -243,11 +238,8 @@ static status cast_gloss(const render_tile_memory *t, const render_shared *r,
     return gloss_run(r->dev, shape2(t->count, LOBE_RAYS),
                      &(gloss_args){.frame = *frame,
                                    .camera = r->camera,
-                                   .world = ray_scene_world(r->rays),
-                                   .nodes = ray_scene_nodes(r->rays),
-                                   .blocks = ray_scene_blocks(r->rays),
-                                   .facets = r->tables.facets,
-                                   .materials = r->tables.materials,
+                                   .tree = ray_scene_tree(r->rays),
+                                   .surface = r->surfaces,
                                    .hit = t->hit,
                                    .out_met = t->gloss});
 }
@@ -268,20 +260,9 @@ static status integrate(const render_tile_memory *t, const render_shared *r,
                            &(radiometry_args){.frame = frame,
                                               .air = r->air,
                                               .camera = r->camera,
-                                              .facets = r->tables.facets,
-                                              .materials = r->tables.materials,
-                                              .temperature_k = t->temperature_k,
-                                              .hit = t->hit,
-                                              .background = t->background,
-                                              .sunlit = t->lit,
-                                              .background_sunlit = t->background_lit,
-                                              .spectra = r->tables.spectrum_rows,
-                                              .emissivity = r->tables.emissivity_rows,
-                                              .incident = t->incident,
-                                              .knot_first = r->tables.knot_first,
-                                              .knot_share = r->tables.knot_share,
-                                              .extinction = r->tables.extinction_rows,
-                                              .bodies = t->body_paths,
+                                              .surface = r->surfaces,
+                                              .pixel = pixels_of(t),
+                                              .spectra = r->tables.spectra,
                                               .emissivities = t->emissivities,
                                               .terms = t->terms}));
         TRY(band_planes_run(r->dev, shape,
@@ -298,51 +279,56 @@ out:
     return rc;
 }
 
+/* What arrives at the pixels, ray by ray. */
+static status collect_incident(const render_tile_memory *t, const render_shared *r,
+                               const radiometry_record *frame)
+{
+    status rc = STATUS_OK;
+    const bool all_are_knots = frame->knot_span == 0;
+    incident_pixels pixels = {
+        .frame = *frame,
+        .camera = r->camera,
+        .points = t->points,
+        .background = t->background,
+        .background_lit = t->background_lit,
+        .gloss = t->gloss,
+        .light_length = r->tables.blocks.sample_count,
+        .spectra = all_are_knots ? r->tables.spectra : r->tables.knot_spectra,
+        .bodies = r->bodies,
+    };
+
+    TRY(interreflection_set_sun(r->lights, &r->frame));
+    if (t->gloss.memory) TRY(cast_gloss(t, r, frame));
+    pixels.frame.sample_count = frame->knot_count;
+    pixels.light = interreflection_light(r->lights);
+    TRY(incident_compute(r->around, &pixels, t->incident));
+out:
+    return rc;
+}
+
+/* The planes of the tile. */
 static status colour(const render_tile_memory *t, const render_shared *r)
 {
     status rc = STATUS_OK;
     radiometry_record frame = r->frame;
+    pixel_tables pixels = pixels_of(t);
 
     frame.first_pixel = t->first;
     frame.pixel_count = t->count;
     frame.wants = wants_of_samples(r, t->wants);
-    if (r->bodies) TRY(cross_bodies(t, r, &frame));
-    TRY(truth_run(
-        r->dev, shape1(t->count),
-        &(truth_args){.frame = frame,
-                      .camera = r->camera,
-                      .facets = r->tables.facets,
-                      .facet_id = r->tables.facet_ids,
-                      .materials = r->tables.materials,
-                      .temperature_k = t->temperature_k,
-                      .hit = t->hit,
-                      .background = t->background,
-                      .sunlit = r->bodies ? t->direct : t->lit,
-                      .background_sunlit = r->bodies ? t->background_direct : t->background_lit,
-                      .planes = t->truth_planes}));
-    if (has_incident(r)) {
-        TRY(interreflection_set_sun(r->lights, &r->frame));
-        if (t->gloss.memory) TRY(cast_gloss(t, r, &frame));
-        const bool all_are_knots = frame.knot_span == 0;
-        radiometry_record at_knots = frame;
-        at_knots.sample_count = frame.knot_count;
-        const incident_pixels pixels = {
-            .frame = at_knots,
-            .camera = r->camera,
-            .points = t->points,
-            .background = t->background,
-            .background_lit = t->background_lit,
-            .gloss = t->gloss,
-            .facet_background = interreflection_background(r->lights),
-            .light = interreflection_rows(r->lights),
-            .light_length = r->tables.blocks.sample_count,
-            .spectra = all_are_knots ? r->tables.spectrum_rows : r->tables.knot_rows,
-            .emissivity = all_are_knots ? r->tables.emissivity_rows : r->tables.knot_emissivity,
-            .bodies = r->bodies,
-            .extinction = r->tables.extinction_rows,
-        };
-        TRY(incident_compute(r->around, &pixels, t->incident));
+    if (r->bodies) {
+        TRY(cross_bodies(t, r, &frame));
+        pixels.sunlit = t->direct;
+        pixels.background_sunlit = t->background_direct;
     }
+    TRY(truth_run(r->dev, shape1(t->count),
+                  &(truth_args){.frame = frame,
+                                .camera = r->camera,
+                                .surface = r->surfaces,
+                                .facet_id = r->tables.facet_ids,
+                                .pixel = pixels,
+                                .planes = t->truth_planes}));
+    if (has_incident(r)) TRY(collect_incident(t, r, &frame));
     TRY(integrate(t, r, frame));
 out:
     return rc;

@@ -19,6 +19,7 @@ typedef struct render_shared {
     bool is_coarse;
     temperature *warmth;
     render_tables tables;
+    surface_tables surfaces;
     incident *around;        /* NULL: thesis mode */
     incident *facet_around;  /* the same */
     interreflection *lights; /* the same */

@@ -206,6 +206,13 @@ float_buffer shape_factor_cells(const shape_factor_grid *grid)
     return grid->cell;
 }
 
+hemisphere_tables shape_factor_rays(const shape_factor_grid *grid,
+                                    const shape_factor_points *points)
+{
+    return (hemisphere_tables){
+        .cell = grid->cell, .hit = points->hit, .met = points->met, .order = points->order};
+}
+
 status shape_factor_trace(const shape_factor_grid *grid, const ray_scene *scene, const float *sun,
                           const shape_factor_points *points)
 {
@@ -221,16 +228,14 @@ status shape_factor_trace(const shape_factor_grid *grid, const ray_scene *scene,
                                              .sun_x = towards[0],
                                              .sun_y = towards[1],
                                              .sun_z = towards[2],
-                                             .world = ray_scene_world(scene),
-                                             .nodes = ray_scene_nodes(scene),
-                                             .blocks = ray_scene_blocks(scene),
+                                             .tree = ray_scene_tree(scene),
                                              .cell = grid->cell,
                                              .hit = points->hit,
                                              .out_met = points->met});
 }
 
 status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
-                        const shape_factor_tables *tables, const float *sun,
+                        const surface_tables *surfaces, const float *sun,
                         const shape_factor_points *points, background_record_buffer out_background)
 {
     status rc = STATUS_OK;
@@ -240,16 +245,9 @@ status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
     TRY(background_run(dev, device_ray_shape(dev, points->count, 1),
                        &(background_args){.count = points->count,
                                           .cell_count = grid->cell_count,
-                                          .world = ray_scene_world(scene),
-                                          .nodes = ray_scene_nodes(scene),
-                                          .blocks = ray_scene_blocks(scene),
-                                          .cell = grid->cell,
-                                          .facet = tables->facet,
-                                          .temperature_k = tables->temperature_k,
-                                          .material = tables->material,
-                                          .hit = points->hit,
-                                          .met = points->met,
-                                          .order = points->order,
+                                          .tree = ray_scene_tree(scene),
+                                          .surface = *surfaces,
+                                          .hemisphere = shape_factor_rays(grid, points),
                                           .out = out_background}));
 out:
     return rc;

@@ -43,13 +43,6 @@ status shape_factor_open_thinned(shape_factor_grid **out, device *dev,
                                  const shape_factor_grid *grid);
 void shape_factor_free(shape_factor_grid *grid);
 
-/* What the rays may meet; all three are read at the ground's facet too. */
-typedef struct shape_factor_tables {
-    facet_record_buffer facet;
-    float_buffer temperature_k; /* per facet */
-    material_record_buffer material;
-} shape_factor_tables;
-
 /* What one run over points works with. */
 typedef struct shape_factor_points {
     uint32_t count;
@@ -65,18 +58,23 @@ status shape_factor_trace(const shape_factor_grid *grid, const ray_scene *scene,
 
 /* Samples the hemisphere above every point; both sides of a facet are seen. A ray that leaves the
  * scene sees the sky, or the ground plane if that is there and the ray goes down.
+ *   surfaces         that they may meet
  *   sun              unit vector towards the sun: facets met are marked where it reaches them; NULL:
  *                    nobody asks
  *   out_background   shape (count). Points without a facet get factor 1 and no
  *                    background. Of equally common materials the lowest number is taken; at most
  *                    256 materials are counted at a point */
 status shape_factor_run(const shape_factor_grid *grid, const ray_scene *scene,
-                        const shape_factor_tables *tables, const float *sun,
+                        const surface_tables *surfaces, const float *sun,
                         const shape_factor_points *points, background_record_buffer out_background);
 
 uint32_t shape_factor_cell_count(const shape_factor_grid *grid);
 
 /* The grid on the device: shape (cell_count, 4), see hemisphere.cl. */
 float_buffer shape_factor_cells(const shape_factor_grid *grid);
+
+/* What kernels read of the rays of a run. */
+hemisphere_tables shape_factor_rays(const shape_factor_grid *grid,
+                                    const shape_factor_points *points);
 
 #endif

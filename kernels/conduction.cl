@@ -92,7 +92,7 @@ static void go(const patch_run *p, uint step, global float *out_w_m2)
     for (uint first = p->first; first < p->end; first += LANES_WIDTH) open_step(p, first, step);
     for (int i = 0; i < count; i++) {
         const bool late = 2 * i >= count;
-        const sub_step s = {layered_air_of(p->world.forcing[late ? step : step - 1]),
+        const sub_step s = {layered_air_of(p->world.loads.forcing[late ? step : step - 1]),
                             (float)(i + 1) / (float)count, span.step_s / (float)count, i, count};
         for (uint first = p->first; first < p->end; first += LANES_WIDTH) go_alone(p, first, &s);
         conduction_solve(p->links, p->rows, p->first, p->end);
@@ -140,23 +140,22 @@ static void go_through_days(const patch_run *p, uint day, global float *out_w_m2
 /* A patch a work-item, through the weather.
  * Launch: (patch_count). Arrays of facets have span.facet_count of them, patch after patch, each
  * patch filled up to a multiple of 16 with facets without neighbours. patch_first: (patch_count + 1);
- * facets, forcing, sunlit, power, received_w_m2: as in layered.cl; links: neighbours as places in these arrays;
+ * facets, loads, exchange: as in layered.cl, but nothing is lateral yet; links: neighbours as places in these arrays;
  * groups: (facet_count / LANES_WIDTH), numbers: (9, facet_count), both to work with;
- * lateral_w_m2: (2 steps, facet_count), see layered_history.h. */
+ * out_w_m2: (2 steps, facet_count), lateral_w_m2 of layered_history.h. */
 kernel void conduction(const thermal_span span, const uint patch_count,
                        global const uint *patch_first, global const layered_record *facets,
-                       global const conduction_record *links, global const forcing_record *forcing,
-                       OPTIONAL global const uint *sunlit, const uint power_materials,
-                       OPTIONAL global const float *power, const uint received_columns,
-                       OPTIONAL global const float *received_w_m2, global conduction_group *groups,
-                       global float *numbers, global float *lateral_w_m2)
+                       global const conduction_record *links, TABLES(LOAD_TABLES),
+                       TABLES(EXCHANGE_TABLES), global conduction_group *groups,
+                       global float *numbers, global float *out_w_m2)
 {
     const uint patch = get_global_id(0);
     const size_t n = span.facet_count;
     if (patch >= patch_count) return;
 
-    const patch_run p = {.world = {span, forcing, sunlit, 0, power_materials, power, 0,
-                                   received_columns, NULL, received_w_m2},
+    const patch_run p = {.world = {.span = span,
+                                   .loads = TABLES_GIVEN(LOAD_TABLES),
+                                   .exchange = TABLES_GIVEN(EXCHANGE_TABLES)},
                          .first = patch_first[patch],
                          .end = patch_first[patch + 1],
                          .facets = facets,
@@ -167,6 +166,6 @@ kernel void conduction(const thermal_span span, const uint patch_count,
                                   numbers + 7 * n, numbers + 8 * n}};
     const uint day = layered_steps_a_day(span), settled = span.step_count > day ? day : 0;
     begin(&p);
-    if (settled > 0) go_through_days(&p, day, lateral_w_m2);
-    for (uint step = settled + 1; step < span.step_count; step++) go(&p, step, lateral_w_m2);
+    if (settled > 0) go_through_days(&p, day, out_w_m2);
+    for (uint step = settled + 1; step < span.step_count; step++) go(&p, step, out_w_m2);
 }
