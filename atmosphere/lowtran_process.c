@@ -1,5 +1,7 @@
 #include "lowtran_process.h"
 
+#include "number.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -233,7 +235,7 @@ static void read_echo(const char *tape6, const char *card, int width, double out
     const size_t length = strcspn(text, "\n");
     for (size_t i = 0; i < ECHO_LIMIT && (i + 1) * (size_t)width <= length; i++) {
         snprintf(field, sizeof field, "%.*s", width, text + i * (size_t)width);
-        out[i] = strtod(field, NULL);
+        number_take(field + strspn(field, " "), &out[i]);
     }
 }
 

@@ -3,14 +3,8 @@
 #include "tool.h"
 
 #include <signal.h>
-#include <stdio.h>
-#include <string.h>
 
-static const struct {
-    const char *name;
-    int (*run)(int argc, char **argv);
-    const char *purpose;
-} commands[] = {
+static const program_command commands[] = {
     {"make", tool_make, "make the radiance database of a scene"},
     {"deck", tool_deck, "run card decks as they stand"},
     {"cloud", tool_cloud, "write the extinction of a cloud"},
@@ -18,39 +12,12 @@ static const struct {
     {"show", tool_show, "print what a database holds"},
 };
 
-enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
-
-static void print_help(FILE *stream)
-{
-    fputs("usage: radsig-atmosphere COMMAND [ARGUMENT ...]\n\n", stream);
-    for (int i = 0; i < COMMAND_COUNT; i++)
-        fprintf(stream, "  %-8s %s\n", commands[i].name, commands[i].purpose);
-    fputs("\nradsig-atmosphere COMMAND --help tells more; --version prints the version.\n"
-          "Exit code: 0 done, 1 failed, 2 wrong usage, 130 interrupted.\n",
-          stream);
-}
-
 int main(int argc, char **argv)
 {
     const struct sigaction interrupt = {.sa_handler = lowtran_interrupt};
+    const program tool = {"radsig-atmosphere", commands, sizeof commands / sizeof *commands};
 
-    if (argc < 2) {
-        print_help(stderr);
-        return TOOL_USAGE;
-    }
-    if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) {
-        print_help(stdout);
-        return 0;
-    }
-    if (!strcmp(argv[1], "--version")) {
-        puts("radsig-atmosphere " RADSIG_VERSION);
-        return 0;
-    }
     sigaction(SIGINT, &interrupt, NULL);
     sigaction(SIGTERM, &interrupt, NULL);
-    for (int i = 0; i < COMMAND_COUNT; i++)
-        if (!strcmp(argv[1], commands[i].name)) return commands[i].run(argc - 1, argv + 1);
-    fprintf(stderr, "radsig-atmosphere: there is no command '%s' (radsig-atmosphere --help)\n",
-            argv[1]);
-    return TOOL_USAGE;
+    return program_run(&tool, argc, argv);
 }

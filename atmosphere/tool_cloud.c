@@ -1,17 +1,17 @@
 #include "cloud.h"
+#include "spelling.h"
 #include "tool.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-static const char help[] = "usage: radsig-atmosphere cloud NAME -o FILE.ext\n"
-                           "\n"
-                           "Writes the extinction of one of LOWTRAN 7's clouds, and beside it "
-                           "FILE.scattering.csv with its\n"
-                           "single-scattering albedo and asymmetry. NAME: cumulus, altostratus, "
-                           "stratus, stratocumulus or\n"
-                           "nimbostratus.\n";
+static const char command[] = "radsig-atmosphere cloud";
+
+static const char purpose[] = "Writes the extinction of one of LOWTRAN 7's clouds, and beside it "
+                              "FILE.scattering.csv with its\n"
+                              "single-scattering albedo and asymmetry. NAME: cumulus, altostratus, "
+                              "stratus, stratocumulus or\n"
+                              "nimbostratus.\n";
 
 static status run(const cloud_model *model, const char *output)
 {
@@ -31,18 +31,28 @@ out:
     return rc;
 }
 
+static const cloud_model *find_model(const char *wanted, spelling *near)
+{
+    for (int i = 0; i < CLOUD_COUNT; i++) {
+        if (!strcmp(wanted, cloud_models[i].name)) return &cloud_models[i];
+        spelling_offer(near, cloud_models[i].name);
+    }
+    return NULL;
+}
+
 int tool_cloud(int argc, char **argv)
 {
-    tool_options options;
-    const int misuse = tool_read(argc, argv, 0, &options);
-    const cloud_model *model = NULL;
+    const char *output = NULL;
+    option list[] = {tool_output_option(&output, "FILE.ext")};
+    const option_table table = {command, "NAME", 1, 1, purpose, list, sizeof list / sizeof *list};
+    const int code = option_table_read(&table, argc, argv, NULL);
+    char hint[SPELLING_HINT_SIZE];
 
-    if (misuse == TOOL_HELP) fputs(help, stdout);
-    if (misuse) return misuse == TOOL_HELP ? 0 : misuse;
-    if (options.count != 1) return tool_misuse("cloud", "needs the name of one cloud");
-    if (!options.output) return tool_misuse("cloud", "needs -o FILE.ext");
-    for (int i = 0; i < CLOUD_COUNT; i++)
-        if (!strcmp(argv[options.first], cloud_models[i].name)) model = &cloud_models[i];
-    if (!model) return tool_misuse("cloud", "there is no cloud '%s'", argv[options.first]);
-    return tool_end("cloud", run(model, options.output));
+    if (code != OPTION_TABLE_DONE) return code;
+    spelling near = spelling_of(argv[1]);
+    const cloud_model *model = find_model(argv[1], &near);
+    if (!model)
+        return program_misuse(command, "unknown cloud '%s'%s", argv[1],
+                              spelling_hint(&near, "", hint));
+    return program_end(command, run(model, output));
 }

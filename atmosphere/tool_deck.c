@@ -2,18 +2,17 @@
 #include "run_table.h"
 #include "tool.h"
 
-#include <stdio.h>
-#include <stdlib.h>
+#include <limits.h>
 
-static const char help[] = "usage: radsig-atmosphere deck FILE.cdk [FILE.cdk ...] -o FILE.rad\n"
-                           "\n"
-                           "Runs card decks of LOWTRAN 7 as they stand and writes a text radiance "
-                           "database as far as they\n"
-                           "fill it. A deck of several runs (IRPT 1, 3, 4) runs as a whole. Runs "
-                           "of other wavenumbers than\n"
-                           "the first go to files of their own, FILE_2.rad and so on. A deck for "
-                           "MODTRAN is taken too: its\n"
-                           "leading letter and its resolution are dropped.\n";
+static const char command[] = "radsig-atmosphere deck";
+
+static const char purpose[] = "Runs card decks of LOWTRAN 7 as they stand and writes a text "
+                              "radiance database as far as they\n"
+                              "fill it. A deck of several runs (IRPT 1, 3, 4) runs as a whole. "
+                              "Runs of other wavenumbers than\n"
+                              "the first go to files of their own, FILE_2.rad and so on. A deck "
+                              "for MODTRAN is taken too: its\n"
+                              "leading letter and its resolution are dropped.\n";
 
 static status run(char **files, size_t count, const char *output)
 {
@@ -35,12 +34,13 @@ out:
 
 int tool_deck(int argc, char **argv)
 {
-    tool_options options;
-    const int misuse = tool_read(argc, argv, 0, &options);
+    const char *output = NULL;
+    option list[] = {tool_output_option(&output, "FILE.rad")};
+    const option_table table = {
+        command, "FILE.cdk...", 1, INT_MAX, purpose, list, sizeof list / sizeof *list};
+    int count = 0;
+    const int code = option_table_read(&table, argc, argv, &count);
 
-    if (misuse == TOOL_HELP) fputs(help, stdout);
-    if (misuse) return misuse == TOOL_HELP ? 0 : misuse;
-    if (options.count < 1) return tool_misuse("deck", "needs a .cdk file");
-    if (!options.output) return tool_misuse("deck", "needs -o FILE.rad");
-    return tool_end("deck", run(argv + options.first, (size_t)options.count, options.output));
+    if (code != OPTION_TABLE_DONE) return code;
+    return program_end(command, run(argv + 1, (size_t)count, output));
 }

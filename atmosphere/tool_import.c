@@ -1,15 +1,13 @@
 #include "import.h"
 #include "tool.h"
 
-#include <stdio.h>
+static const char command[] = "radsig-atmosphere import";
 
-static const char help[] = "usage: radsig-atmosphere import MANIFEST.toml -o FILE.rad\n"
-                           "\n"
-                           "Makes a radiance database from MODTRAN's own output (tape7, .tp7, "
-                           ".7sc). The manifest names the\n"
-                           "files and tells their geometry: docs/atmosphere.md. A FILE that ends "
-                           "in .radc is written as the\n"
-                           "compact container.\n";
+static const char purpose[] = "Makes a radiance database from MODTRAN's own output (tape7, .tp7, "
+                              ".7sc). The manifest names the\n"
+                              "files and tells their geometry: docs/atmosphere.md. A FILE that "
+                              "ends in .radc is written as the\n"
+                              "compact container.\n";
 
 static status run(const char *path, const char *output)
 {
@@ -25,12 +23,11 @@ out:
 
 int tool_import(int argc, char **argv)
 {
-    tool_options options;
-    const int misuse = tool_read(argc, argv, 0, &options);
+    const char *output = NULL;
+    option list[] = {tool_output_option(&output, "FILE.rad")};
+    const option_table table = {command, "MANIFEST.toml",           1, 1, purpose,
+                                list,    sizeof list / sizeof *list};
+    const int code = option_table_read(&table, argc, argv, NULL);
 
-    if (misuse == TOOL_HELP) fputs(help, stdout);
-    if (misuse) return misuse == TOOL_HELP ? 0 : misuse;
-    if (options.count != 1) return tool_misuse("import", "needs one manifest");
-    if (!options.output) return tool_misuse("import", "needs -o FILE.rad");
-    return tool_end("import", run(argv[options.first], options.output));
+    return code == OPTION_TABLE_DONE ? program_end(command, run(argv[1], output)) : code;
 }

@@ -11,16 +11,13 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char help[] =
-    "usage: radsig-atmosphere make SCENE.toml -o FILE.rad [--time ISO] [--keep-decks FOLDER]\n"
-    "\n"
+static const char command[] = "radsig-atmosphere make";
+
+static const char purpose[] =
     "Makes the radiance database of a scene from its site, time, weather, camera and its table\n"
     "[atmosphere.generate] with LOWTRAN 7, on all processors. A FILE that ends in .radc is "
     "written\n"
-    "as the compact container.\n"
-    "\n"
-    "  --time ISO            instead of the scene's: 1987-06-24T10:00:00-05:00\n"
-    "  --keep-decks FOLDER   writes the card deck of each run there\n";
+    "as the compact container.\n";
 
 #define THERMAL_FROM_UM 3.0
 #define AUREOLE_BELOW_UM 5.0
@@ -95,7 +92,13 @@ static void warn_of_aureole(const generation *g, const recipe *r)
                 g->s->path, off / DEGREE);
 }
 
-static status run(const char *scene_path, const tool_options *options)
+typedef struct make_options {
+    const char *output, *keep_decks;
+    site when; /* the time alone */
+    bool has_time;
+} make_options;
+
+static status run(const char *scene_path, const make_options *options)
 {
     status rc = STATUS_OK;
     generation *g = NULL;
@@ -104,8 +107,10 @@ static status run(const char *scene_path, const tool_options *options)
     atmosphere *air = NULL;
 
     TRY(generation_read(&g, scene_path));
-    if (options->time)
-        TRY(site_parse_time(options->time, &g->s->place.time_s, &g->s->place.utc_offset_min));
+    if (options->has_time) {
+        g->s->place.time_s = options->when.time_s;
+        g->s->place.utc_offset_min = options->when.utc_offset_min;
+    }
     NEED(tool_is_container(options->output) || (!g->plan.target_count && !g->plan.range_count),
          STATUS_ARGUMENT,
          "%s: a text file has no place for target_altitude_m and range_m, expected -o FILE.radc",
@@ -130,14 +135,25 @@ out:
     return rc;
 }
 
+static status read_time(const option *o, const char *text)
+{
+    make_options *options = o->out;
+
+    options->has_time = true;
+    return site_parse_time(text, &options->when.time_s, &options->when.utc_offset_min);
+}
+
 int tool_make(int argc, char **argv)
 {
-    tool_options options;
-    const int misuse = tool_read(argc, argv, TOOL_TIME | TOOL_KEEP_DECKS, &options);
+    make_options options = {0};
+    option list[] = {tool_output_option(&options.output, "FILE.rad"),
+                     {"time", 0, "ISO", "instead of the scene's: 1987-06-24T10:00:00-05:00",
+                      .out = &options, .read = read_time},
+                     {"keep-decks", 0, "FOLDER", "write the card deck of each run there",
+                      .text = &options.keep_decks}};
+    const option_table table = {
+        command, "SCENE.toml", 1, 1, purpose, list, sizeof list / sizeof *list};
+    const int code = option_table_read(&table, argc, argv, NULL);
 
-    if (misuse == TOOL_HELP) fputs(help, stdout);
-    if (misuse) return misuse == TOOL_HELP ? 0 : misuse;
-    if (options.count != 1) return tool_misuse("make", "needs one scene");
-    if (!options.output) return tool_misuse("make", "needs -o FILE.rad");
-    return tool_end("make", run(argv[options.first], &options));
+    return code == OPTION_TABLE_DONE ? program_end(command, run(argv[1], &options)) : code;
 }

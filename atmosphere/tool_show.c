@@ -7,14 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char help[] =
-    "usage: radsig-atmosphere show FILE.rad [--plot STEM]\n"
-    "\n"
-    "Prints what a radiance database, text or container, holds, but for the cards of its runs.\n"
-    "\n"
-    "  --plot STEM   draws STEM_sun.png, STEM_tau.png, STEM_path.png, STEM_sky.png by\n"
-    "                wavelength, STEM_emitted.png and STEM_scattered.png, the sky by\n"
-    "                direction: zenith in the middle, north on top\n";
+static const char command[] = "radsig-atmosphere show";
+
+static const char purpose[] =
+    "Prints what a radiance database, text or container, holds, but for the cards of its runs.\n";
 
 /* The mean over the wavelengths, each row standing for its part of the range. */
 static double mean(const atmosphere *a, const double *values)
@@ -108,12 +104,16 @@ out:
 
 int tool_show(int argc, char **argv)
 {
-    tool_options options;
-    const int misuse = tool_read(argc, argv, TOOL_PLOT, &options);
+    const char *plot = NULL;
+    option list[] = {
+        {"plot", 0, "STEM",
+         "draw STEM_sun.png, STEM_tau.png, STEM_path.png, STEM_sky.png by wavelength, "
+         "STEM_emitted.png and STEM_scattered.png, the sky by direction: zenith in the "
+         "middle, north on top",
+         .text = &plot}};
+    const option_table table = {
+        command, "FILE.rad", 1, 1, purpose, list, sizeof list / sizeof *list};
+    const int code = option_table_read(&table, argc, argv, NULL);
 
-    if (misuse == TOOL_HELP) fputs(help, stdout);
-    if (misuse) return misuse == TOOL_HELP ? 0 : misuse;
-    if (options.count != 1) return tool_misuse("show", "needs one radiance database");
-    if (options.output) return tool_misuse("show", "writes no file but --plot STEM");
-    return tool_end("show", run(argv[options.first], options.plot));
+    return code == OPTION_TABLE_DONE ? program_end(command, run(argv[1], plot)) : code;
 }

@@ -1,6 +1,7 @@
 #include "atmosphere_container.h"
 
 #include "../kernels/records.h"
+#include "input_file.h"
 #include "output_file.h"
 
 #include <errno.h>
@@ -96,9 +97,10 @@ static void list_blocks(atmosphere *a, block out[ARRAYS])
 
 bool atmosphere_container_is(const char *path)
 {
-    char start[sizeof magic] = "";
-    FILE *file = fopen(path, "rb");
-    const bool is = file && fread(start, 1, sizeof magic - 1, file) == sizeof magic - 1 &&
+    char start[sizeof magic] = "", message[1024];
+    FILE *file = NULL;
+    const bool is = !input_file_open(&file, NULL, path, SIZE_MAX, message, sizeof message) &&
+                    fread(start, 1, sizeof magic - 1, file) == sizeof magic - 1 &&
                     !strcmp(start, magic);
 
     if (file) fclose(file);
@@ -249,11 +251,14 @@ status atmosphere_container_read(atmosphere **out, const char *path)
 {
     status rc = STATUS_OK;
     block blocks[ARRAYS];
-    FILE *file = fopen(path, "rb");
+    char message[1024];
+    FILE *file = NULL;
     atmosphere *a = calloc(1, sizeof *a);
 
     NEED(a, STATUS_MEMORY, "%s: no memory to read it", path);
-    NEED(file && fseek(file, (long)strlen(magic), SEEK_SET) == 0, STATUS_FILE, "%s: %s", path,
+    NEED(!input_file_open(&file, NULL, path, SIZE_MAX, message, sizeof message), STATUS_FILE, "%s",
+         message);
+    NEED(fseek(file, (long)strlen(magic), SEEK_SET) == 0, STATUS_FILE, "%s: %s", path,
          strerror(errno));
     TRY(read_object(a, file, path));
     list_blocks(a, blocks);

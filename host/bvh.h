@@ -30,9 +30,6 @@ typedef struct bvh_source {
                                     NULL: nowhere */
 } bvh_source;
 
-/* Goes up with every change of what bvh_build makes of a source: trees are kept on disk. */
-enum { BVH_LAYOUT = 4 };
-
 /* Builds the tree; the same input gives the same bytes. No facets make a tree that every ray misses.
  * Boxes are wider than the triangles by 2^-21 of the largest coordinate: what the rounding of an
  * edge test can be off by. Fails with STATUS_ARGUMENT beyond 2^27 blocks and with STATUS_MEMORY. */

@@ -1,71 +1,65 @@
 #include "bvh_cache.h"
 
+#include "cache_folder.h"
 #include "output_file.h"
 
 #include <fcntl.h>
-#include <sha2.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <xxhash.h>
 
-enum { PATH_SIZE = 4096, KEY_SIZE = 32 };
+#ifndef BVH_LAYOUT
+#error "the Makefile defines BVH_LAYOUT, a hash of the sources that decide what a tree is made of"
+#endif
 
 /* What a file begins with; nodes and blocks follow. Numbers are in the machine's order. */
 typedef struct header {
     char magic[8];
-    uint8_t key[KEY_SIZE];
+    uint64_t layout;
+    XXH128_canonical_t key;
     uint32_t node_count, block_count, triangle_count;
     float low[3], high[3];
     uint32_t unused;
     uint64_t check; /* of all else */
 } header;
 
-_Static_assert(sizeof(header) == 88, "a header has no gaps");
+_Static_assert(sizeof(header) == 80, "a header has no gaps");
 
-static const char magic[8] = "radsigT";
+static const char magic[8] = "radsigU";
+static const uint64_t layout = BVH_LAYOUT;
 
-/* What the tree is built over, and how. */
-static void make_key(uint8_t out[KEY_SIZE], const bvh_source *source)
+/* What the tree is built over: tells geometry apart, no more is needed in a user's own folder. */
+static XXH128_canonical_t make_key(const bvh_source *source)
 {
-    const uint32_t form[] = {BVH_LAYOUT,          sizeof(bvh_node),     sizeof(bvh_block),
-                             source->facet_count, source->vertex_count, source->two_sided != NULL,
+    const uint32_t form[] = {source->facet_count, source->vertex_count, source->two_sided != NULL,
                              0x01020304};
-    uint8_t digest[SHA512_DIGEST_LENGTH];
-    SHA2_CTX context;
+    XXH128_canonical_t key;
+    XXH3_state_t state;
 
-    SHA512Init(&context);
-    SHA512Update(&context, (const uint8_t *)form, sizeof form);
-    SHA512Update(&context, (const uint8_t *)source->corner,
-                 source->facet_count * sizeof *source->corner);
-    SHA512Update(&context, (const uint8_t *)source->position,
-                 source->vertex_count * sizeof *source->position);
-    if (source->two_sided) SHA512Update(&context, source->two_sided, source->facet_count);
-    SHA512Final(digest, &context);
-    memcpy(out, digest, KEY_SIZE);
-}
-
-/* FNV-1a over words of eight bytes, its upper half mixed in: finds damage, not malice. */
-static uint64_t add_check(uint64_t check, const void *bytes, size_t size)
-{
-    for (size_t i = 0; i < size; i += sizeof(uint64_t)) {
-        uint64_t word;
-        memcpy(&word, (const char *)bytes + i, sizeof word);
-        check = (check ^ word) * 1099511628211u;
-        check ^= check >> 29;
-    }
-    return check;
+    XXH3_INITSTATE(&state);
+    XXH3_128bits_reset_withSeed(&state, layout);
+    XXH3_128bits_update(&state, form, sizeof form);
+    XXH3_128bits_update(&state, source->corner, source->facet_count * sizeof *source->corner);
+    XXH3_128bits_update(&state, source->position, source->vertex_count * sizeof *source->position);
+    if (source->two_sided) XXH3_128bits_update(&state, source->two_sided, source->facet_count);
+    XXH128_canonicalFromHash(&key, XXH3_128bits_digest(&state));
+    return key;
 }
 
 static uint64_t check_of(const header *h, const bvh_tables *t)
 {
-    uint64_t check = add_check(14695981039346656037u, h, offsetof(header, check));
+    XXH3_state_t state;
 
-    check = add_check(check, t->node, t->node_count * sizeof *t->node);
-    return add_check(check, t->block, t->block_count * sizeof *t->block);
+    XXH3_INITSTATE(&state);
+    XXH3_64bits_reset(&state);
+    XXH3_64bits_update(&state, h, offsetof(header, check));
+    XXH3_64bits_update(&state, t->node, t->node_count * sizeof *t->node);
+    XXH3_64bits_update(&state, t->block, t->block_count * sizeof *t->block);
+    return XXH3_64bits_digest(&state);
 }
 
 static off_t file_size(const header *h)
@@ -74,36 +68,16 @@ static off_t file_size(const header *h)
                    h->block_count * sizeof(bvh_block));
 }
 
-/* Writes the folder's path and makes the folder; false where there is none to be had. */
-static bool find_folder(char out[PATH_SIZE])
+/* Writes the paths of the folder and of the file in it; false if there is no folder to be had. */
+static bool find_file(char folder[CACHE_FOLDER_PATH], char out[CACHE_FOLDER_PATH],
+                      const XXH128_canonical_t *key)
 {
-    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    const bool is_stated =
-        cache && cache[0] == '/'; /* others are to be ignored, says its standard */
-    const int length = snprintf(out, PATH_SIZE, "%s%s/radsig",
-                                is_stated ? cache
-                                : home    ? home
-                                          : "",
-                                is_stated ? "" : "/.cache");
+    char name[2 * sizeof key->digest + 1];
 
-    if ((!is_stated && !(home && home[0] == '/')) || length >= PATH_SIZE) return false;
-    for (char *end = out + 1; end; end = strchr(end + 1, '/')) {
-        if (*end != '/') continue;
-        *end = '\0';
-        mkdir(out, 0700);
-        *end = '/';
-    }
-    mkdir(out, 0700);
-    return access(out, X_OK) == 0;
-}
-
-static bool find_file(char out[PATH_SIZE], const uint8_t key[KEY_SIZE])
-{
-    char folder[PATH_SIZE], name[2 * KEY_SIZE + 1];
-
-    if (!find_folder(folder)) return false;
-    for (int i = 0; i < KEY_SIZE; i++) snprintf(name + 2 * i, 3, "%02x", key[i]);
-    return snprintf(out, PATH_SIZE, "%s/%s.tree", folder, name) < PATH_SIZE;
+    if (!cache_folder_find(folder)) return false;
+    for (size_t i = 0; i < sizeof key->digest; i++)
+        snprintf(name + 2 * i, 3, "%02x", key->digest[i]);
+    return snprintf(out, CACHE_FOLDER_PATH, "%s/%s.tree", folder, name) < CACHE_FOLDER_PATH;
 }
 
 /* Reads the rest of a file whose header was found good; false where it is not what was written. */
@@ -129,7 +103,7 @@ static bool read_tree(bvh **out, FILE *file, const header *h)
     return is_whole;
 }
 
-static bool load(bvh **out, const char *path, const uint8_t key[KEY_SIZE])
+static bool load(bvh **out, const char *path, const XXH128_canonical_t *key)
 {
     const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "rb");
@@ -142,8 +116,9 @@ static bool load(bvh **out, const char *path, const uint8_t key[KEY_SIZE])
     }
     const bool is_ours = fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) &&
                          fread(&h, sizeof h, 1, file) == 1 && !memcmp(h.magic, magic, 8) &&
-                         !memcmp(h.key, key, KEY_SIZE) && found.st_size == file_size(&h) &&
-                         read_tree(out, file, &h);
+                         h.layout == layout && !memcmp(&h.key, key, sizeof *key) &&
+                         found.st_size == file_size(&h) && read_tree(out, file, &h);
+    if (is_ours) cache_folder_touch(descriptor);
     fclose(file);
     return is_ours;
 }
@@ -156,18 +131,21 @@ static bool write_tree(FILE *file, const header *h, const bvh_tables *t)
 }
 
 /* Others see a whole file or none. */
-static void store(const bvh_tables *t, const char *path, const uint8_t key[KEY_SIZE])
+static void store(const bvh_tables *t, const char *folder, const char *path,
+                  const XXH128_canonical_t *key)
 {
-    header h = {.node_count = t->node_count,
+    header h = {.layout = layout,
+                .key = *key,
+                .node_count = t->node_count,
                 .block_count = t->block_count,
                 .triangle_count = t->triangle_count};
     output_file *file = NULL;
 
     memcpy(h.magic, magic, sizeof magic);
-    memcpy(h.key, key, KEY_SIZE);
     memcpy(h.low, t->low, sizeof h.low);
     memcpy(h.high, t->high, sizeof h.high);
     h.check = check_of(&h, t);
+    if (!cache_folder_make_room(folder, (uint64_t)file_size(&h))) return;
     if (output_file_open(&file, path) != STATUS_OK) return;
     if (write_tree(output_file_stream(file), &h, t)) output_file_commit(file);
     output_file_free(file);
@@ -176,17 +154,17 @@ static void store(const bvh_tables *t, const char *path, const uint8_t key[KEY_S
 status bvh_cache_build(bvh **out, const bvh_source *source)
 {
     status rc = STATUS_OK;
-    uint8_t key[KEY_SIZE];
-    char path[PATH_SIZE];
+    XXH128_canonical_t key;
+    char folder[CACHE_FOLDER_PATH], path[CACHE_FOLDER_PATH];
     bool is_kept = source->facet_count >= BVH_CACHE_LEAST;
 
     if (is_kept) {
-        make_key(key, source);
-        is_kept = find_file(path, key);
+        key = make_key(source);
+        is_kept = find_file(folder, path, &key);
     }
-    if (is_kept && load(out, path, key)) goto out;
+    if (is_kept && load(out, path, &key)) goto out;
     TRY(bvh_build(out, source));
-    if (is_kept) store(bvh_look(*out), path, key);
+    if (is_kept) store(bvh_look(*out), folder, path, &key);
 out:
     return rc;
 }

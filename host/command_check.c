@@ -1,15 +1,12 @@
 #include "command.h"
 #include "command_scene.h"
 
-#include <getopt.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-static const char help[] =
-    "usage: radsig check SCENE [--set TABLE.KEY=VALUE ...]\n"
-    "\n"
+static const char command[] = "radsig check";
+
+static const char purpose[] =
     "Reads everything that a render of the scene would read, reports every error it can find on\n"
     "stderr with file and line, and prints a summary of the scene with units.\n";
 
@@ -144,46 +141,20 @@ static void print_summary(const scene *s)
     for (size_t i = 0; i < s->input_count; i++) printf("input       %s\n", s->inputs[i].name);
 }
 
-static const struct option options[] = {
-    {"set", required_argument, NULL, 'S'}, {"help", no_argument, NULL, 'h'}, {NULL, 0, NULL, 0}};
-
-/* Returns -1 to go on, or the exit code. */
-static int take_arguments(command_settings *settings, const char **out_path, int argc, char **argv)
-{
-    int option;
-
-    opterr = 0;
-    while ((option = getopt_long(argc, argv, ":", options, NULL)) != -1) {
-        if (option == 'h') {
-            fputs(help, stdout);
-            return 0;
-        }
-        if (option == '?') return command_misuse("check", "unknown option '%s'", argv[optind - 1]);
-        if (option == ':') return command_misuse("check", "%s needs a value", argv[optind - 1]);
-        if (!strchr(optarg, '=') || !command_settings_add(settings, "", optarg))
-            return command_misuse("check", "'%s' is no value for --set", optarg);
-    }
-    if (optind + 1 != argc)
-        return command_misuse("check", argc > optind ? "one scene at a time" : "needs a scene");
-    *out_path = argv[optind];
-    return -1;
-}
-
 int command_check(int argc, char **argv)
 {
-    command_settings *settings = calloc(1, sizeof *settings);
+    command_settings settings = {0};
+    option list[] = {command_set_option(&settings)};
+    const option_table table = {command, "SCENE", 1, 1, purpose, list, sizeof list / sizeof *list};
     scene *s = NULL;
-    const char *path = NULL;
-    int code;
+    int code = option_table_read(&table, argc, argv, NULL);
 
-    if (!settings) return command_end("check", status_set(STATUS_MEMORY, "no memory"));
-    code = take_arguments(settings, &path, argc, argv);
-    if (code < 0) {
-        const status rc = command_scene_read(&s, path, settings);
+    if (code == OPTION_TABLE_DONE) {
+        const status rc = command_scene_read(&s, argv[1], &settings);
         if (rc == STATUS_OK) print_summary(s);
-        code = command_end("check", rc);
+        code = program_end(command, rc);
     }
     scene_free(s);
-    free(settings);
+    command_settings_free(&settings);
     return code;
 }

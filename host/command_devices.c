@@ -3,11 +3,10 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-static const char help[] =
-    "usage: radsig devices\n"
-    "\n"
+static const char command[] = "radsig devices";
+
+static const char purpose[] =
     "Lists the OpenCL devices of all platforms; * marks the default. The number in the first\n"
     "column is what --device takes.\n";
 
@@ -23,17 +22,15 @@ static void print_devices(const device_info *info, size_t count)
 
 int command_devices(int argc, char **argv)
 {
+    const option_table table = {.command = command, .purpose = purpose};
+    const int code = option_table_read(&table, argc, argv, NULL);
     device_info *info = NULL;
     size_t count = 0;
     status rc;
 
-    if (argc == 2 && !strcmp(argv[1], "--help")) {
-        fputs(help, stdout);
-        return 0;
-    }
-    if (argc > 1) return command_misuse("devices", "takes no arguments, not '%s'", argv[1]);
+    if (code != OPTION_TABLE_DONE) return code;
     rc = device_list(&info, &count);
     if (rc == STATUS_OK) print_devices(info, count);
     free(info);
-    return command_end("devices", rc);
+    return program_end(command, rc);
 }

@@ -2,48 +2,25 @@
 #include "command_scene.h"
 #include "command_value.h"
 #include "errand.h"
+#include "interrupt.h"
+#include "number.h"
 #include "picture.h"
 #include "pocl_affinity.h"
 #include "render_output.h"
 
-#include <getopt.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-static const char help[] =
-    "usage: radsig render SCENE -o DIR [OPTION ...]\n"
-    "\n"
+static const char command[] = "radsig render";
+
+static const char purpose[] =
     "Makes the radiance image of a scene and its truth planes:\n"
     "  DIR/NAME.img, .hdr         radiance, one ENVI band per sensor band\n"
     "  DIR/NAME_truth.img, .hdr   every other plane, its unit in the band name\n"
-    "  DIR/NAME.exr, NAME_<plane>.png, NAME.json\n"
-    "\n"
-    "  -o, --output DIR       folder for the files; made where it is absent\n"
-    "  --bands A,B            only these bands\n"
-    "  --planes A,B           only these truth planes; emitted_BAND, reflected_sun_BAND,\n"
-    "                         reflected_sky_BAND, reflected_background_BAND, path_BAND and\n"
-    "                         transmission_BAND are written only where they are named\n"
-    "  --size WxH             pixels: columns x rows\n"
-    "  --time ISO[,ISO...]    time with offset, as 1987-06-24T10:00:00-05:00; several of one day "
-    "go\n"
-    "                         into DIR/19870624T100000-0500 and so on\n"
-    "  --mode exact|thesis    exact integrals, or what the thesis did\n"
-    "  --set TABLE.KEY=VALUE  change a value of the scene, as --set camera.twist_deg=10\n"
-    "  --probe COLUMN,ROW     also the spectra of that pixel, counted from 0,0 at the top left:\n"
-    "                         NAME_probe_COLUMN_ROW.csv and .png, every term of its radiance\n"
-    "  --exr                  write NAME.exr above 16 bands too\n"
-    "  --device N[,M...]      OpenCL devices, see radsig devices; several share the tiles\n";
-
-static volatile sig_atomic_t stop;
-
-static void on_signal(int signal_number)
-{
-    (void)signal_number;
-    stop = 1;
-}
+    "  DIR/NAME.exr, NAME_<plane>.png, NAME.json\n";
 
 enum { DEVICE_LIMIT = 16 };
 
@@ -55,109 +32,112 @@ typedef struct arguments {
     size_t device_count;
 } arguments;
 
-static bool add_size(command_settings *settings, const char *text)
+static status read_size(const option *o, const char *text)
 {
-    unsigned columns, rows;
-    char end, value[64];
+    status rc = STATUS_OK;
+    uint32_t columns, rows;
+    char value[64];
 
-    if (strspn(text, "0123456789x") != strlen(text)) return false;
-    if (sscanf(text, "%ux%u%c", &columns, &rows, &end) != 2) return false;
+    NEED(number_read_size(text, &columns, &rows), STATUS_ARGUMENT,
+         "found '%s', expected COLUMNSxROWS, at most %d pixels", text, INT32_MAX);
     snprintf(value, sizeof value, "[%u, %u]", columns, rows);
-    return command_settings_add(settings, "camera.pixels", value);
+    TRY(command_settings_add(o->out, "camera.pixels", value));
+out:
+    return rc;
 }
 
-static bool take_probe(render_output_options *output, const char *text)
+static status read_mode(const option *o, const char *text)
 {
-    char end;
-
-    output->wants_probe = true;
-    return strspn(text, "0123456789,") == strlen(text) && strlen(text) < 20 &&
-           sscanf(text, "%9u,%9u%c", &output->probe[0], &output->probe[1], &end) == 2;
+    return command_settings_add(o->out, "render.mode", text);
 }
 
 /* One time, or several with commas between. */
-static bool add_time(command_settings *settings, const char *text)
+static status read_times(const option *o, const char *text)
 {
-    char list[COMMAND_SETTING_SIZE];
+    status rc = STATUS_OK;
+    const size_t size = strlen(text) + 3;
+    char *list = malloc(size);
 
-    if (!strchr(text, ',')) return command_settings_add(settings, "site.time", text);
-    if (snprintf(list, sizeof list, "[%s]", text) >= (int)sizeof list) return false;
-    return command_settings_add(settings, "site.time", list);
+    NEED(list, STATUS_MEMORY, "no memory for the times");
+    NEED(*text, STATUS_ARGUMENT, "found '', expected a time such as 1987-06-24T10:00:00-05:00");
+    snprintf(list, size, strchr(text, ',') ? "[%s]" : "%s", text);
+    TRY(command_settings_add(o->out, "site.time", list));
+out:
+    free(list);
+    return rc;
 }
 
-/* Takes one option; false where its value is none. */
-static bool take_option(arguments *a, int option, const char *value)
+static status read_probe(const option *o, const char *text)
 {
-    switch (option) {
-    case 'o':
-        a->output.folder = value;
-        return *value != '\0';
-    case 'b':
-        a->bands = value;
-        return *value != '\0';
-    case 'p':
-        a->output.planes = value;
-        return *value != '\0';
-    case 's':
-        return add_size(&a->settings, value);
-    case 't':
-        return add_time(&a->settings, value);
-    case 'm':
-        return command_settings_add(&a->settings, "render.mode", value);
-    case 'S':
-        return strchr(value, '=') && command_settings_add(&a->settings, "", value);
-    case 'P':
-        return take_probe(&a->output, value);
-    case 'd':
-        return command_device_numbers(value, DEVICE_LIMIT, a->device, &a->device_count);
-    default:
-        a->output.wants_exr = true;
-        return true;
-    }
+    status rc = STATUS_OK;
+    render_output_options *output = o->out;
+    int64_t column = 0, row = 0;
+    const char *end = number_take_whole(text, 0, INT32_MAX, &column);
+
+    NEED(end && *end == ',' && number_read_whole(end + 1, 0, INT32_MAX, &row), STATUS_ARGUMENT,
+         "found '%s', expected COLUMN,ROW, counted from 0,0", text);
+    output->wants_probe = true;
+    output->probe[0] = (uint32_t)column;
+    output->probe[1] = (uint32_t)row;
+out:
+    return rc;
 }
 
-static const struct option options[] = {
-    {"output", required_argument, NULL, 'o'}, {"bands", required_argument, NULL, 'b'},
-    {"planes", required_argument, NULL, 'p'}, {"size", required_argument, NULL, 's'},
-    {"time", required_argument, NULL, 't'},   {"mode", required_argument, NULL, 'm'},
-    {"set", required_argument, NULL, 'S'},    {"probe", required_argument, NULL, 'P'},
-    {"exr", no_argument, NULL, 'x'},          {"device", required_argument, NULL, 'd'},
-    {"help", no_argument, NULL, 'h'},         {NULL, 0, NULL, 0}};
-
-static const char *option_name(int option)
+static status read_devices(const option *o, const char *text)
 {
-    const struct option *o = options;
+    status rc = STATUS_OK;
+    arguments *a = o->out;
+    size_t count = 0;
+    const char *at = text;
 
-    while (o->val != option) o++;
-    return o->name;
+    do {
+        int64_t index = 0;
+        at = number_take_whole(at, 0, 63, &index);
+        NEED(at && (*at == ',' || !*at) && count < DEVICE_LIMIT, STATUS_ARGUMENT,
+             "found '%s', expected up to %d numbers of devices from 0 to 63, with commas between",
+             text, DEVICE_LIMIT);
+        for (size_t i = 0; i < count; i++)
+            NEED(a->device[i] != (int)index, STATUS_ARGUMENT,
+                 "found '%s', expected each device once", text);
+        a->device[count++] = (int)index;
+    } while (*at++);
+    a->device_count = count;
+out:
+    return rc;
 }
 
-/* Returns -1 to go on, or the exit code. */
-static int take_arguments(arguments *a, int argc, char **argv)
+static int read_arguments(arguments *a, int argc, char **argv)
 {
-    bool given[128] = {false};
-    int option;
+    command_settings *settings = &a->settings;
+    option list[] = {
+        {"output", 'o', "DIR", "folder for the files; made if it is absent",
+         .text = &a->output.folder, .is_required = true},
+        {"bands", 0, "A,B", "only these bands", .text = &a->bands},
+        {"planes", 0, "A,B",
+         "only these truth planes; emitted_BAND, reflected_sun_BAND, reflected_sky_BAND, "
+         "reflected_background_BAND, path_BAND and transmission_BAND are written only if they are "
+         "named",
+         .text = &a->output.planes},
+        {"size", 0, "WxH", "pixels: columns x rows", .out = settings, .read = read_size},
+        {"time", 0, "ISO[,ISO...]",
+         "time with offset, as 1987-06-24T10:00:00-05:00; several of one day, up to 96, go into "
+         "DIR/19870624T100000-0500 and so on",
+         .out = settings, .read = read_times},
+        {"mode", 0, "exact|thesis", "exact integrals, or what the thesis did", .out = settings,
+         .read = read_mode},
+        command_set_option(settings),
+        {"probe", 0, "COLUMN,ROW",
+         "also the spectra of that pixel, counted from 0,0 at the top left: "
+         "NAME_probe_COLUMN_ROW.csv and .png, every term of its radiance",
+         .out = &a->output, .read = read_probe},
+        {"exr", 0, NULL, "write NAME.exr above 16 bands too", .flag = &a->output.wants_exr},
+        {"device", 0, "N[,M...]", "OpenCL devices, see radsig devices; several share the tiles",
+         .out = a, .read = read_devices}};
+    const option_table table = {command, "SCENE", 1, 1, purpose, list, sizeof list / sizeof *list};
+    const int code = option_table_read(&table, argc, argv, NULL);
 
-    opterr = 0;
-    while ((option = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
-        if (option == 'h') {
-            fputs(help, stdout);
-            return 0;
-        }
-        if (option == '?') return command_misuse("render", "unknown option '%s'", argv[optind - 1]);
-        if (option == ':') return command_misuse("render", "%s needs a value", argv[optind - 1]);
-        if (given[option] && option != 'S')
-            return command_misuse("render", "--%s is given twice", option_name(option));
-        if (!take_option(a, option, optarg))
-            return command_misuse("render", "'%s' is no value for --%s", optarg,
-                                  option_name(option));
-        given[option] = true;
-    }
-    if (optind + 1 != argc)
-        return command_misuse("render", argc > optind ? "one scene at a time" : "needs a scene");
-    if (!a->output.folder) return command_misuse("render", "needs -o DIR");
-    a->output.scene_path = argv[optind];
-    return -1;
+    a->output.scene_path = argv[1];
+    return code;
 }
 
 /* What is read and opened for a render; the devices get ready while the scene is read. */
@@ -214,8 +194,7 @@ static status run(const arguments *a)
     TRY(errand_run(list, sizeof list / sizeof *list));
     TRY(render_output(o.s, o.dev, a->device_count, &a->output));
 out:
-    /* A signal can also break off what the system was doing. */
-    if (rc != STATUS_OK && stop) rc = status_set(STATUS_INTERRUPTED, "interrupted");
+    rc = interrupt_status(rc);
     for (size_t i = 0; i < a->device_count; i++) device_free(o.dev[i]);
     scene_free(o.s);
     return rc;
@@ -226,18 +205,16 @@ int command_render(int argc, char **argv)
     arguments *a = calloc(1, sizeof *a);
     int code;
 
-    if (!a) return command_end("render", status_set(STATUS_MEMORY, "no memory"));
+    if (!a) return program_end(command, status_set(STATUS_MEMORY, "no memory"));
     a->device[0] = -1;
     a->device_count = 1;
-    a->output.stop = &stop;
     a->output.shows_progress = isatty(STDERR_FILENO);
-    code = take_arguments(a, argc, argv);
-    if (code < 0) {
-        const struct sigaction action = {.sa_handler = on_signal};
-        sigaction(SIGINT, &action, NULL);
-        sigaction(SIGTERM, &action, NULL);
-        code = command_end("render", run(a));
+    code = read_arguments(a, argc, argv);
+    if (code == OPTION_TABLE_DONE) {
+        interrupt_catch_signals();
+        code = program_end(command, run(a));
     }
+    command_settings_free(&a->settings);
     free(a);
     return code;
 }

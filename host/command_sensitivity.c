@@ -33,6 +33,16 @@ material_record command_material_record(const material *m)
     };
 }
 
+status command_refuse_material(const material_library *library, const char *path, const char *name)
+{
+    spelling near = spelling_of(name);
+    char hint[SPELLING_HINT_SIZE];
+
+    material_offer_names(library, &near);
+    return status_set(STATUS_ARGUMENT, "%s: has no material '%s'%s", path, name,
+                      spelling_hint(&near, "", hint));
+}
+
 static status add_object(object_list *list, const material *m, const facet_record *facet)
 {
     status rc = STATUS_OK;
@@ -108,8 +118,9 @@ static status list_objects(object_list *list, const sensitivity_request *request
         if (request->material && strcmp(request->material, m->name)) continue;
         TRY(add_object(list, m, &request->facet));
     }
-    NEED(list->count > 0, STATUS_ARGUMENT, "%s: has no material '%s'", request->materials,
-         request->material ? request->material : "");
+    if (list->count == 0)
+        TRY(command_refuse_material(library, request->materials,
+                                    request->material ? request->material : ""));
 out:
     return rc;
 }

@@ -29,4 +29,7 @@ status command_sensitivity(const sensitivity_request *request);
 /* The record of a material for temperatures. */
 material_record command_material_record(const material *m);
 
+/* Fails: the library has no such material. */
+status command_refuse_material(const material_library *library, const char *path, const char *name);
+
 #endif

@@ -1,114 +1,80 @@
 #include "command.h"
 #include "command_value.h"
+#include "number.h"
 #include "ray_model.h"
 #include "shape_factor.h"
 
-#include <getopt.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-static const char help[] =
-    "usage: radsig shape-factor MESH... --point X,Y,Z --normal X,Y,Z [--reading READING]\n"
-    "                           [--zenith-step D --azimuth-step D] [--cull back] [--device N]\n"
-    "\n"
+static const char command[] = "radsig shape-factor";
+
+static const char purpose[] =
     "Prints the share of the hemisphere above a point that sees the sky, 0 to 1. There is no\n"
-    "ground beyond the meshes: rays that leave them see the sky in every direction.\n"
-    "\n"
-    "  --reading READING  what a direction counts, e its elevation above the plane:\n"
-    "                     cosine (the default): sin(e) cos(e), as irradiance does\n"
-    "                     solid-angle: cos(e); thesis: sin(e)\n"
-    "  --zenith-step D    degrees between directions, divides 90; 5 unless told\n"
-    "  --azimuth-step D   divides 360; 10 unless told\n"
-    "  --cull back        facets are met from the front alone\n"
-    "  --device N         OpenCL device, see radsig devices\n";
+    "ground beyond the meshes: rays that leave them see the sky in every direction.\n";
 
 typedef struct factor_request {
     double point_m[3], normal[3];
-    bool has_point, has_normal, cull_back;
+    bool cull_back;
     double zenith_step_deg, azimuth_step_deg;
-    shape_factor_reading reading;
-    int device_index;
+    int reading; /* a shape_factor_reading */
+    int64_t device_index;
     char *const *path;
     size_t path_count;
 } factor_request;
 
-static bool read_vector(const char *text, double out[3])
+static status read_point(const option *o, const char *text)
 {
-    char *end = NULL;
+    status rc = STATUS_OK;
 
-    for (int k = 0; k < 3; k++, text = end + 1) {
-        out[k] = strtod(text, &end);
-        if (end == text || !isfinite(out[k]) || *end != (k < 2 ? ',' : 0)) return false;
-    }
-    return true;
+    NEED(number_read_list(text, 3, o->out), STATUS_ARGUMENT, "found '%s', expected X,Y,Z", text);
+out:
+    return rc;
 }
 
-static bool read_whole(const char *text, int *out)
+static status read_normal(const option *o, const char *text)
 {
-    double number;
+    status rc = STATUS_OK;
+    const double *normal = o->out;
 
-    if (!command_number(text, 0, 1e6, &number) || floor(number) != number) return false;
-    *out = (int)number;
-    return true;
+    TRY(read_point(o, text));
+    NEED(normal[0] != 0.0 || normal[1] != 0.0 || normal[2] != 0.0, STATUS_ARGUMENT,
+         "found '%s', expected a direction", text);
+out:
+    return rc;
 }
 
-/* Returns whether the option's value was understood. */
-static bool take_option(int option, const char *value, factor_request *out)
-{
-    switch (option) {
-    case 'p':
-        return out->has_point = read_vector(value, out->point_m);
-    case 'n':
-        out->has_normal = read_vector(value, out->normal);
-        return out->has_normal &&
-               (out->normal[0] != 0 || out->normal[1] != 0 || out->normal[2] != 0);
-    case 'r':
-        return shape_factor_read_name(&out->reading, value) == STATUS_OK;
-    case 'z':
-        return command_number(value, 1e-3, 90, &out->zenith_step_deg);
-    case 'a':
-        return command_number(value, 1e-3, 360, &out->azimuth_step_deg);
-    case 'c':
-        return out->cull_back = !strcmp(value, "back");
-    default:
-        return read_whole(value, &out->device_index);
-    }
-}
-
-/* Returns 0, -1 for help, or the exit code of a misuse. */
 static int read_arguments(int argc, char **argv, factor_request *out)
 {
-    static const struct option options[] = {{"point", required_argument, NULL, 'p'},
-                                            {"normal", required_argument, NULL, 'n'},
-                                            {"reading", required_argument, NULL, 'r'},
-                                            {"zenith-step", required_argument, NULL, 'z'},
-                                            {"azimuth-step", required_argument, NULL, 'a'},
-                                            {"cull", required_argument, NULL, 'c'},
-                                            {"device", required_argument, NULL, 'd'},
-                                            {"help", no_argument, NULL, 'h'},
-                                            {0}};
-    int option, index = 0;
+    option list[] = {
+        {"point", 0, "X,Y,Z", "in metres", .out = out->point_m, .read = read_point,
+         .is_required = true},
+        {"normal", 0, "X,Y,Z", "out of the surface; need not be unit", .out = out->normal,
+         .read = read_normal, .is_required = true},
+        {"reading", 0, "READING",
+         "weight of a direction at elevation e above the plane: cosine (the default): sin(e) "
+         "cos(e), as irradiance has it; solid-angle: cos(e); thesis: sin(e)",
+         .index = &out->reading, .word = shape_factor_reading_names,
+         .word_count = SHAPE_FACTOR_READINGS},
+        {"zenith-step", 0, "D", "degrees between directions, divides 90 (default 5)",
+         .number = &out->zenith_step_deg, .low = 1e-3, .high = 90.0},
+        {"azimuth-step", 0, "D", "divides 360 (default 10)", .number = &out->azimuth_step_deg,
+         .low = 1e-3, .high = 360.0},
+        command_cull_option(&out->cull_back),
+        command_device_option(&out->device_index)};
+    const option_table table = {
+        command, "MESH...", 1, INT_MAX, purpose, list, sizeof list / sizeof *list};
+    int count = 0;
+    const int code = option_table_read(&table, argc, argv, &count);
 
-    opterr = 0;
-    while ((option = getopt_long(argc, argv, ":", options, &index)) != -1) {
-        if (option == 'h') return -1;
-        if (option == '?' || option == ':')
-            return command_misuse("shape-factor", "'%s' %s", argv[optind - 1],
-                                  option == ':' ? "needs a value" : "is no option");
-        if (!take_option(option, optarg, out))
-            return command_misuse("shape-factor", "--%s: '%s' is not what it takes",
-                                  options[index].name, optarg);
-    }
-    if (optind == argc) return command_misuse("shape-factor", "needs a mesh");
-    if (!out->has_point || !out->has_normal)
-        return command_misuse("shape-factor", "needs --point and --normal");
+    if (code != OPTION_TABLE_DONE) return code;
     if (shape_factor_check_steps(out->zenith_step_deg, out->azimuth_step_deg) != STATUS_OK)
-        return command_misuse("shape-factor", "%s", status_message());
-    out->path = argv + optind;
-    out->path_count = (size_t)(argc - optind);
-    return 0;
+        return program_misuse(command, "%s", status_message());
+    out->path = argv + 1;
+    out->path_count = (size_t)count;
+    return OPTION_TABLE_DONE;
 }
 
 /* The point as something that a ray has met. */
@@ -154,12 +120,12 @@ static status run(const factor_request *request)
     background_record background;
     hit_record hit;
 
-    TRY(ray_model_open(&model, request->device_index, request->path, request->path_count));
+    TRY(ray_model_open(&model, (int)request->device_index, request->path, request->path_count));
     ray_scene *scene = ray_model_scene(model);
     device *dev = ray_scene_device(scene);
     ray_scene_set_cull(scene, false, request->cull_back);
-    TRY(shape_factor_open(&grid, dev, request->reading, request->zenith_step_deg,
-                          request->azimuth_step_deg));
+    TRY(shape_factor_open(&grid, dev, (shape_factor_reading)request->reading,
+                          request->zenith_step_deg, request->azimuth_step_deg));
     TRY(open_surfaces(dev, ray_model_geometry(model)->facet_count, &surfaces));
     hit = make_hit(request, ray_model_geometry(model)->origin_m);
     TRY(device_allocate(dev, &points.hit, 1, &hit));
@@ -188,10 +154,5 @@ int command_shape_factor(int argc, char **argv)
                               .device_index = -1};
     const int code = read_arguments(argc, argv, &request);
 
-    if (code > 0) return code;
-    if (code < 0) {
-        fputs(help, stdout);
-        return 0;
-    }
-    return command_end("shape-factor", run(&request));
+    return code == OPTION_TABLE_DONE ? program_end(command, run(&request)) : code;
 }

@@ -5,26 +5,21 @@
 #include "ray_stream.h"
 
 #include <errno.h>
-#include <getopt.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char help[] =
-    "usage: radsig trace [--any-hit] [--cull back] [--binary] [--device N] MESH...\n"
-    "\n"
+static const char command[] = "radsig trace";
+
+static const char purpose[] =
     "Reads rays from stdin, a line `ox oy oz dx dy dz` each, and prints t_m,facet for each: the\n"
     "distance in metres and the face number in the file, counted from 0 and on over all meshes\n"
-    "in the order given; inf,-1 where nothing is met. Directions need not be unit.\n"
-    "\n"
-    "  --any-hit      only tells whether anything is met: 1 or 0\n"
-    "  --cull back    facets are met from the front alone, where they run counter-clockwise\n"
-    "  --binary       rays are 6 float32 each, answers float32 t and int32 facet, or one byte\n"
-    "  --device N     OpenCL device, see radsig devices\n";
+    "in the order given; inf,-1 for a miss. Directions need not be unit.\n";
 
 typedef struct trace_request {
     bool any_hit, cull_back, binary;
-    int device_index;
+    int64_t device_index;
     char *const *path;
     size_t path_count;
 } trace_request;
@@ -39,44 +34,23 @@ typedef struct trace_answer {
     uint8_t met_host[RAY_BATCH_SIZE];
 } trace_answer;
 
-static int take_option(int option, trace_request *out)
-{
-    double number;
-
-    if (option == 'a') out->any_hit = true;
-    if (option == 'b') out->binary = true;
-    if (option == 'c') out->cull_back = true;
-    if (option == 'c' && strcmp(optarg, "back"))
-        return command_misuse("trace", "--cull '%s': expected back", optarg);
-    if (option != 'd') return 0;
-    if (!command_number(optarg, 0, 1e6, &number) || floor(number) != number)
-        return command_misuse("trace", "--device '%s': expected a whole number", optarg);
-    out->device_index = (int)number;
-    return 0;
-}
-
-/* Returns 0, -1 for help, or the exit code of a misuse. */
 static int read_arguments(int argc, char **argv, trace_request *out)
 {
-    static const struct option options[] = {
-        {"any-hit", no_argument, NULL, 'a'},    {"binary", no_argument, NULL, 'b'},
-        {"cull", required_argument, NULL, 'c'}, {"device", required_argument, NULL, 'd'},
-        {"help", no_argument, NULL, 'h'},       {0}};
-    int option, code;
+    option list[] = {
+        {"any-hit", 0, NULL, "only tell whether anything is met: 1 or 0", .flag = &out->any_hit},
+        command_cull_option(&out->cull_back),
+        {"binary", 0, NULL,
+         "rays are 6 float32 each, answers float32 t and int32 facet, or one byte",
+         .flag = &out->binary},
+        command_device_option(&out->device_index)};
+    const option_table table = {
+        command, "MESH...", 1, INT_MAX, purpose, list, sizeof list / sizeof *list};
+    int count = 0;
+    const int code = option_table_read(&table, argc, argv, &count);
 
-    opterr = 0;
-    while ((option = getopt_long(argc, argv, ":", options, NULL)) != -1) {
-        if (option == 'h') return -1;
-        if (option == '?' || option == ':')
-            return command_misuse("trace", "'%s' %s", argv[optind - 1],
-                                  option == ':' ? "needs a value" : "is no option");
-        code = take_option(option, out);
-        if (code) return code;
-    }
-    if (optind == argc) return command_misuse("trace", "needs a mesh");
-    out->path = argv + optind;
-    out->path_count = (size_t)(argc - optind);
-    return 0;
+    out->path = argv + 1;
+    out->path_count = (size_t)count;
+    return code;
 }
 
 static status open_answer(trace_answer **out, device *dev)
@@ -164,7 +138,7 @@ static status run(const trace_request *request)
     ray_stream stream = {.file = stdin, .binary = request->binary};
 
     NEED(batch, STATUS_MEMORY, "no memory for a batch of rays");
-    TRY(ray_model_open(&model, request->device_index, request->path, request->path_count));
+    TRY(ray_model_open(&model, (int)request->device_index, request->path, request->path_count));
     ray_scene_set_cull(ray_model_scene(model), false, request->cull_back);
     TRY(open_answer(&answer, ray_scene_device(ray_model_scene(model))));
     stream.origin_m = ray_model_geometry(model)->origin_m;
@@ -187,10 +161,5 @@ int command_trace(int argc, char **argv)
     trace_request request = {.device_index = -1};
     const int code = read_arguments(argc, argv, &request);
 
-    if (code > 0) return code;
-    if (code < 0) {
-        fputs(help, stdout);
-        return 0;
-    }
-    return command_end("trace", run(&request));
+    return code == OPTION_TABLE_DONE ? program_end(command, run(&request)) : code;
 }

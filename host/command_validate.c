@@ -2,194 +2,113 @@
 #include "command_value.h"
 #include "constants.h"
 #include "curve.h"
+#include "number.h"
 #include "output_file.h"
 #include "picture.h"
 #include "thermal.h"
 #include "weather_table.h"
 
-#include <getopt.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char help[] =
-    "usage: radsig validate thermal FILE.csv --site LAT,LON --date YYYY-MM-DD --utc-offset H\n"
-    "           --solar-absorptance A --thermal-emissivity E --thickness-cm X\n"
-    "           --conductivity-w-m-k K --heat-capacity-j-m3-k C\n"
-    "           [--surface-resistance-s-m DAY,NIGHT --back adiabatic|air|ground --model "
-    "layered|therm\n"
-    "            --sky-longwave LAW --convection LAW --roughness-length-m X --wind-height-m X\n"
-    "            -o FILE.csv --plot FILE.png]\n"
-    "\n"
-    "Takes a level surface through measured weather and compares its temperature with the "
-    "measured\n"
-    "one over the last full day: prints rmse_c, bias_c (predicted less measured), peak_lag_min.\n"
-    "The table needs surface_temperature, or longwave_up and longwave_down.\n"
-    "\n"
-    "  --surface-resistance-s-m   to evaporation; without it the surface is dry\n"
-    "  --back                     behind the thickness (default adiabatic); ground: the mean air\n"
-    "                             temperature 1 m below the surface\n"
-    "  --sky-longwave             where none was measured: brunt (the default), berdahl-martin or\n"
-    "                             brutsaert\n"
-    "  --convection               therm, mcadams, tarp or similarity; by default the model's own\n"
-    "  --roughness-length-m, --wind-height-m   of similarity (default .001 and 10)\n"
-    "  -o                         writes time_h,measured_c,predicted_c\n"
-    "  --plot                     draws both\n";
+static const char command[] = "radsig validate";
+
+static const char purpose[] =
+    "Takes a level surface through measured weather and compares its temperature with the\n"
+    "measured one over the last full day: prints rmse_c, bias_c (predicted less measured),\n"
+    "peak_lag_min. The table needs surface_temperature, or longwave_up and longwave_down.\n";
 
 typedef struct validation {
     const char *table, *output, *plot;
+    command_day day;
     site place;
+    double solar_absorptance, thermal_emissivity, thickness_cm, conductivity_w_m_k, capacity_j_m3_k;
     facet_record facet;
     material_record material;
     layered_matter layered;
-    bool is_layered;
-    forcing_laws laws;
+    int back, model; /* of the words of the options */
+    command_laws laws;
 } validation;
 
-enum {
-    SITE,
-    DATE,
-    OFFSET,
-    ABSORPTANCE,
-    EMISSIVITY,
-    THICKNESS,
-    CONDUCTIVITY,
-    CAPACITY,
-    RESISTANCE,
-    BACK,
-    MODEL,
-    SKY_LONGWAVE,
-    CONVECTION,
-    ROUGHNESS,
-    WIND_HEIGHT,
-    OUTPUT,
-    PLOT
-};
-enum { VALUES = PLOT + 1, HELP = VALUES, REQUIRED = RESISTANCE };
+enum { MODEL_LAYERED, MODEL_THERM };
 
-static const struct option options[] = {
-    [SITE] = {"site", 1, NULL, SITE},
-    [DATE] = {"date", 1, NULL, DATE},
-    [OFFSET] = {"utc-offset", 1, NULL, OFFSET},
-    [ABSORPTANCE] = {"solar-absorptance", 1, NULL, ABSORPTANCE},
-    [EMISSIVITY] = {"thermal-emissivity", 1, NULL, EMISSIVITY},
-    [THICKNESS] = {"thickness-cm", 1, NULL, THICKNESS},
-    [CONDUCTIVITY] = {"conductivity-w-m-k", 1, NULL, CONDUCTIVITY},
-    [CAPACITY] = {"heat-capacity-j-m3-k", 1, NULL, CAPACITY},
-    [RESISTANCE] = {"surface-resistance-s-m", 1, NULL, RESISTANCE},
-    [BACK] = {"back", 1, NULL, BACK},
-    [MODEL] = {"model", 1, NULL, MODEL},
-    [SKY_LONGWAVE] = {"sky-longwave", 1, NULL, SKY_LONGWAVE},
-    [CONVECTION] = {"convection", 1, NULL, CONVECTION},
-    [ROUGHNESS] = {"roughness-length-m", 1, NULL, ROUGHNESS},
-    [WIND_HEIGHT] = {"wind-height-m", 1, NULL, WIND_HEIGHT},
-    [OUTPUT] = {"output", 1, NULL, OUTPUT},
-    [PLOT] = {"plot", 1, NULL, PLOT},
-    [HELP] = {"help", 0, NULL, HELP},
-    {0}};
-
-static int take_number(char *value[VALUES], int option, double low, double high, float *out)
+static status read_resistance(const option *o, const char *text)
 {
-    double number = 0.0;
+    status rc = STATUS_OK;
+    layered_matter *l = o->out;
+    double value[2];
 
-    if (!command_number(value[option], low, high, &number))
-        return command_misuse("validate", "--%s '%s': expected a number from %g to %g",
-                              options[option].name, value[option], low, high);
-    *out = (float)number;
-    return 0;
+    NEED(number_read_list(text, 2, value) && value[0] >= 0.0 && value[1] >= 0.0, STATUS_ARGUMENT,
+         "found '%s', expected DAY,NIGHT, each at least 0", text);
+    l->resistance_day_s_m = value[0];
+    l->resistance_night_s_m = value[1];
+out:
+    return rc;
 }
 
-static int take_place(char *value[VALUES], site *out)
+static int check_use(const option_table *t, validation *out, char **argv)
 {
-    char midnight[64];
-    double offset_h = 0.0;
-    int unused;
-
-    if (!command_place(value[SITE], &out->latitude_deg, &out->longitude_deg))
-        return command_misuse("validate", "--site '%s': expected LAT,LON in degrees", value[SITE]);
-    if (!command_number(value[OFFSET], -14.0, 14.0, &offset_h))
-        return command_misuse("validate", "--utc-offset '%s': expected hours", value[OFFSET]);
-    snprintf(midnight, sizeof midnight, "%.40sT00:00:00Z", value[DATE]);
-    if (site_parse_time(midnight, &out->time_s, &unused) != STATUS_OK)
-        return command_misuse("validate", "--date '%s': expected YYYY-MM-DD", value[DATE]);
-    out->utc_offset_min = (int)lround(60.0 * offset_h);
-    out->time_s -= 60.0 * out->utc_offset_min;
-    return 0;
-}
-
-static int take_layered(char *value[VALUES], validation *out)
-{
-    static const char *const backs[] = {"adiabatic", "air", "ground"};
     static const layered_back back[] = {LAYERED_BACK_ADIABATIC, LAYERED_BACK_AIR,
                                         LAYERED_BACK_GROUND};
-    layered_matter *l = &out->layered;
-    int which = 0;
 
-    *l = layered_matter_default();
-    if (value[RESISTANCE] && (sscanf(value[RESISTANCE], "%lf,%lf", &l->resistance_day_s_m,
-                                     &l->resistance_night_s_m) != 2 ||
-                              !(l->resistance_day_s_m >= 0.0) || !(l->resistance_night_s_m >= 0.0)))
-        return command_misuse("validate", "--surface-resistance-s-m '%s': expected DAY,NIGHT",
-                              value[RESISTANCE]);
-    while (value[BACK] && which < 3 && strcmp(value[BACK], backs[which])) which++;
-    if (which == 3)
-        return command_misuse("validate", "--back '%s': expected adiabatic, air or ground",
-                              value[BACK]);
-    l->back = back[which];
-    out->is_layered = !value[MODEL] || !strcmp(value[MODEL], "layered");
-    if (!out->is_layered && strcmp(value[MODEL], "therm"))
-        return command_misuse("validate", "--model '%s': expected layered or therm", value[MODEL]);
-    if (!out->is_layered && (value[RESISTANCE] || value[BACK]))
-        return command_misuse("validate",
-                              "--surface-resistance-s-m and --back need --model layered");
-    return 0;
+    if (strcmp(argv[1], "thermal"))
+        return program_misuse(command, "found '%s', expected thermal FILE.csv", argv[1]);
+    if (out->model == MODEL_THERM &&
+        (option_table_has(t, "surface-resistance-s-m") || option_table_has(t, "back")))
+        return program_misuse(command, "--surface-resistance-s-m and --back need --model layered");
+    out->table = argv[2];
+    out->place = command_day_site(&out->day);
+    out->layered.back = back[out->back];
+    out->facet = (facet_record){.normal = {0.0f, 0.0f, 1.0f},
+                                .thickness_m = .01f * (float)out->thickness_cm};
+    out->material = (material_record){.solar_absorptance = (float)out->solar_absorptance,
+                                      .thermal_emissivity = (float)out->thermal_emissivity,
+                                      .conductivity_w_m_k = (float)out->conductivity_w_m_k,
+                                      .density_kg_m3 = 1.0f,
+                                      .specific_heat_j_kg_k = (float)out->capacity_j_m3_k,
+                                      .exposed_area = -.5f};
+    return OPTION_TABLE_DONE;
 }
 
-static int take_values(char *value[VALUES], validation *out)
-{
-    const command_law_texts laws = {value[SKY_LONGWAVE], value[CONVECTION], NULL, value[ROUGHNESS],
-                                    value[WIND_HEIGHT]};
-    float thickness_cm = 0.0f, capacity = 0.0f;
-
-    for (int i = 0; i < REQUIRED; i++)
-        if (!value[i]) return command_misuse("validate", "needs --%s", options[i].name);
-    if (take_place(value, &out->place) || take_layered(value, out) ||
-        command_laws("validate", &laws, &out->laws) ||
-        take_number(value, ABSORPTANCE, 0.0, 1.0, &out->material.solar_absorptance) ||
-        take_number(value, EMISSIVITY, 0.1, 1.0, &out->material.thermal_emissivity) ||
-        take_number(value, THICKNESS, 1e-4, 1e4, &thickness_cm) ||
-        take_number(value, CONDUCTIVITY, 1e-3, 5e3, &out->material.conductivity_w_m_k) ||
-        take_number(value, CAPACITY, 1e3, 1e7, &capacity))
-        return EXIT_USAGE;
-    out->facet = (facet_record){.normal = {0.0f, 0.0f, 1.0f}, .thickness_m = .01f * thickness_cm};
-    out->material.density_kg_m3 = 1.0f;
-    out->material.specific_heat_j_kg_k = capacity;
-    out->material.exposed_area = -.5f;
-    out->output = value[OUTPUT];
-    out->plot = value[PLOT];
-    return 0;
-}
-
-/* Returns 0, -1 where help is asked for, or the exit code of a misuse. */
 static int read_arguments(int argc, char **argv, validation *out)
 {
-    char *value[VALUES] = {0};
-    int option;
+    static const char *const backs[] = {"adiabatic", "air", "ground"};
+    static const char *const models[] = {"layered", "therm"};
+    option list[] = {
+        command_site_option(&out->day.place),
+        command_date_option(&out->day),
+        command_offset_option(&out->day),
+        {"solar-absorptance", 0, "A", "of the surface", .number = &out->solar_absorptance,
+         .low = 0.0, .high = 1.0, .is_required = true},
+        {"thermal-emissivity", 0, "E", "of the surface", .number = &out->thermal_emissivity,
+         .low = 0.1, .high = 1.0, .is_required = true},
+        {"thickness-cm", 0, "X", "of the matter", .number = &out->thickness_cm, .low = 1e-4,
+         .high = 1e4, .is_required = true},
+        {"conductivity-w-m-k", 0, "K", "of the matter", .number = &out->conductivity_w_m_k,
+         .low = 1e-3, .high = 5e3, .is_required = true},
+        {"heat-capacity-j-m3-k", 0, "C", "of the matter", .number = &out->capacity_j_m3_k,
+         .low = 1e3, .high = 1e7, .is_required = true},
+        {"surface-resistance-s-m", 0, "DAY,NIGHT", "to evaporation; without it the surface is dry",
+         .out = &out->layered, .read = read_resistance},
+        {"back", 0, "BACK",
+         "behind the thickness: adiabatic (the default), air, or ground: the mean air temperature "
+         "1 m below the surface",
+         .index = &out->back, .word = backs, .word_count = 3},
+        {"model", 0, "MODEL", "layered (the default) or therm", .index = &out->model,
+         .word = models, .word_count = 2},
+        command_sky_option(&out->laws),
+        command_convection_option(&out->laws),
+        command_roughness_option(&out->laws),
+        command_wind_height_option(&out->laws),
+        {"output", 'o', "FILE.csv", "write time_h,measured_c,predicted_c", .text = &out->output},
+        {"plot", 0, "FILE.png", "draw both", .text = &out->plot}};
+    const option_table table = {command, "thermal FILE.csv",        2, 2, purpose,
+                                list,    sizeof list / sizeof *list};
+    const int code = option_table_read(&table, argc, argv, NULL);
 
-    opterr = 0;
-    while ((option = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
-        if (option == HELP) return -1;
-        if (option == 'o') option = OUTPUT;
-        if (option < 0 || option >= VALUES)
-            return command_misuse("validate", "'%s' %s", argv[optind - 1],
-                                  option == ':' ? "needs a value" : "is no option");
-        value[option] = optarg;
-    }
-    if (argc - optind != 2 || strcmp(argv[optind], "thermal"))
-        return command_misuse("validate", "expected: validate thermal FILE.csv");
-    out->table = argv[optind + 1];
-    return take_values(value, out);
+    return code == OPTION_TABLE_DONE ? check_use(&table, out, argv) : code;
 }
 
 /* Temperature of a grey surface from what it emits and reflects. */
@@ -220,8 +139,9 @@ out:
 static status predict(const validation *v, const weather *w, float *out_k)
 {
     status rc = STATUS_OK;
-    const thermal_matter matter = {&v->material, v->is_layered ? &v->layered : NULL, NULL, 1,
-                                   v->laws};
+    const bool is_layered = v->model == MODEL_LAYERED;
+    const thermal_matter matter = {&v->material, is_layered ? &v->layered : NULL, NULL, 1,
+                                   command_laws_of(&v->laws)};
     device *dev = NULL;
     thermal *t = NULL;
 
@@ -323,10 +243,8 @@ out:
 
 int command_validate(int argc, char **argv)
 {
-    validation v = {0};
-    const int misuse = read_arguments(argc, argv, &v);
+    validation v = {.layered = layered_matter_default(), .laws.convection = -1};
+    const int code = read_arguments(argc, argv, &v);
 
-    if (misuse < 0) fputs(help, stdout);
-    if (misuse) return misuse < 0 ? 0 : misuse;
-    return command_end("validate", run(&v));
+    return code == OPTION_TABLE_DONE ? program_end(command, run(&v)) : code;
 }

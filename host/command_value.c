@@ -1,85 +1,162 @@
 #include "command_value.h"
 
-#include "command.h"
-#include "record_file.h"
+#include "number.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-bool command_number(const char *text, double low, double high, double *out)
+static status read_place(const option *o, const char *text)
 {
-    return !strchr(text, ',') && record_numbers(text, 1, out) == 1 && *out >= low && *out <= high;
-}
-
-bool command_device_numbers(const char *text, int most, int *out, size_t *out_count)
-{
-    size_t count = 0;
-
-    for (const char *at = text;; at++) {
-        int index = 0, digits = 0;
-        for (; *at >= '0' && *at <= '9' && digits < 3; digits++) index = 10 * index + *at++ - '0';
-        if (digits == 0 || index > 63 || count == (size_t)most) return false;
-        for (size_t i = 0; i < count; i++)
-            if (out[i] == index) return false;
-        out[count++] = index;
-        if (*at == ',') continue;
-        *out_count = count;
-        return *at == '\0';
-    }
-}
-
-bool command_place(const char *text, double *latitude_deg, double *longitude_deg)
-{
-    const char *comma = strchr(text, ',');
+    status rc = STATUS_OK;
     double value[2];
+    site *place = o->out;
 
-    if (!comma || strchr(comma + 1, ',') || record_numbers(text, 2, value) != 2) return false;
-    *latitude_deg = value[0];
-    *longitude_deg = value[1];
-    return fabs(value[0]) <= 90.0 && fabs(value[1]) <= 180.0;
+    NEED(number_read_list(text, 2, value) && fabs(value[0]) <= 90.0 && fabs(value[1]) <= 180.0,
+         STATUS_ARGUMENT, "found '%s', expected LAT,LON in degrees, -90 to 90 and -180 to 180",
+         text);
+    place->latitude_deg = value[0];
+    place->longitude_deg = value[1];
+out:
+    return rc;
 }
 
-bool command_word(const char *text, const char *const *words, int count, int *out)
+static status read_date(const option *o, const char *text)
 {
-    for (int i = 0; i < count; i++) {
-        if (strcmp(text, words[i])) continue;
-        *out = i;
-        return true;
-    }
-    return false;
+    status rc = STATUS_OK;
+    char midnight[64];
+    int unused;
+
+    snprintf(midnight, sizeof midnight, "%.40sT00:00:00Z", text);
+    NEED(site_parse_time(midnight, o->out, &unused) == STATUS_OK, STATUS_ARGUMENT,
+         "found '%s', expected YYYY-MM-DD", text);
+out:
+    return rc;
 }
 
-int command_laws(const char *command, const command_law_texts *text, forcing_laws *out)
+status command_read_time(const option *o, const char *text)
 {
-    int sky = 0, air = -1, light = 0;
+    site *place = o->out;
 
-    *out = (forcing_laws){0};
-    if (text->sky_longwave &&
-        !command_word(text->sky_longwave, forcing_sky_names, FORCING_SKIES, &sky))
-        return command_misuse(command,
-                              "--sky-longwave '%s': expected brunt, berdahl-martin or brutsaert",
-                              text->sky_longwave);
-    if (text->convection && !command_word(text->convection, forcing_convection_names + 1,
-                                          FORCING_CONVECTIONS - 1, &air))
-        return command_misuse(command,
-                              "--convection '%s': expected therm, mcadams, tarp or similarity",
-                              text->convection);
-    if (text->diffuse &&
-        !command_word(text->diffuse, forcing_diffuse_names, FORCING_DIFFUSES, &light))
-        return command_misuse(command, "--diffuse '%s': expected isotropic or hay-davies",
-                              text->diffuse);
-    out->sky = (forcing_sky)sky;
-    out->convection = (forcing_convection)(air + 1);
-    out->diffuse = (forcing_diffuse)light;
-    if (text->roughness_length_m &&
-        !command_number(text->roughness_length_m, FORCING_ROUGHNESS_LOW_M, FORCING_ROUGHNESS_HIGH_M,
-                        &out->roughness_length_m))
-        return command_misuse(command, "--roughness-length-m '%s': expected a number from %g to %g",
-                              text->roughness_length_m, FORCING_ROUGHNESS_LOW_M,
-                              FORCING_ROUGHNESS_HIGH_M);
-    if (text->wind_height_m && !command_number(text->wind_height_m, FORCING_HEIGHT_LOW_M,
-                                               FORCING_HEIGHT_HIGH_M, &out->wind_height_m))
-        return command_misuse(command, "--wind-height-m '%s': expected a number from %g to %g",
-                              text->wind_height_m, FORCING_HEIGHT_LOW_M, FORCING_HEIGHT_HIGH_M);
-    return 0;
+    return site_parse_time(text, &place->time_s, &place->utc_offset_min);
+}
+
+static status read_back(const option *o, const char *text)
+{
+    status rc = STATUS_OK;
+
+    NEED(!strcmp(text, "back"), STATUS_ARGUMENT, "found '%s', expected back", text);
+    *(bool *)o->out = true;
+out:
+    return rc;
+}
+
+site command_day_site(const command_day *day)
+{
+    site place = day->place;
+
+    place.utc_offset_min = (int)lround(60.0 * day->utc_offset_h);
+    place.time_s = day->date_s - 60.0 * place.utc_offset_min;
+    return place;
+}
+
+forcing_laws command_laws_of(const command_laws *laws)
+{
+    /* The model's own convection goes before those that have a name. */
+    return (forcing_laws){.sky = (forcing_sky)laws->sky,
+                          .convection = (forcing_convection)(laws->convection + 1),
+                          .diffuse = (forcing_diffuse)laws->diffuse,
+                          .roughness_length_m = laws->roughness_length_m,
+                          .wind_height_m = laws->wind_height_m};
+}
+
+option command_site_option(site *place)
+{
+    return (option){.name = "site",
+                    .value = "LAT,LON",
+                    .help = "in degrees; north and east are positive",
+                    .out = place,
+                    .read = read_place,
+                    .is_required = true};
+}
+
+option command_date_option(command_day *day)
+{
+    return (option){.name = "date",
+                    .value = "YYYY-MM-DD",
+                    .help = "the last full day of the history: hours 24 to 48 of 48 hours",
+                    .out = &day->date_s,
+                    .read = read_date,
+                    .is_required = true};
+}
+
+option command_offset_option(command_day *day)
+{
+    return (option){.name = "utc-offset",
+                    .value = "H",
+                    .help = "hours that local time is ahead of UTC",
+                    .number = &day->utc_offset_h,
+                    .low = -14.0,
+                    .high = 14.0,
+                    .is_required = true};
+}
+
+option command_sky_option(command_laws *laws)
+{
+    return (option){.name = "sky-longwave",
+                    .value = "LAW",
+                    .help = "where none was measured: brunt (the default), berdahl-martin or "
+                            "brutsaert",
+                    .index = &laws->sky,
+                    .word = forcing_sky_names,
+                    .word_count = FORCING_SKIES};
+}
+
+option command_convection_option(command_laws *laws)
+{
+    return (option){.name = "convection",
+                    .value = "LAW",
+                    .help = "therm, mcadams, tarp or similarity; by default the model's own",
+                    .index = &laws->convection,
+                    .word = forcing_convection_names + 1,
+                    .word_count = FORCING_CONVECTIONS - 1};
+}
+
+option command_roughness_option(command_laws *laws)
+{
+    return (option){.name = "roughness-length-m",
+                    .value = "X",
+                    .help = "of similarity (default 0.001)",
+                    .number = &laws->roughness_length_m,
+                    .low = FORCING_ROUGHNESS_LOW_M,
+                    .high = FORCING_ROUGHNESS_HIGH_M};
+}
+
+option command_wind_height_option(command_laws *laws)
+{
+    return (option){.name = "wind-height-m",
+                    .value = "X",
+                    .help = "of similarity (default 10)",
+                    .number = &laws->wind_height_m,
+                    .low = FORCING_HEIGHT_LOW_M,
+                    .high = FORCING_HEIGHT_HIGH_M};
+}
+
+option command_cull_option(bool *is_wanted)
+{
+    return (option){.name = "cull",
+                    .value = "back",
+                    .help = "facets are met from the front alone, where they run counter-clockwise",
+                    .out = is_wanted,
+                    .read = read_back};
+}
+
+option command_device_option(int64_t *index)
+{
+    return (option){.name = "device",
+                    .value = "N",
+                    .help = "OpenCL device, see radsig devices",
+                    .whole = index,
+                    .low = 0,
+                    .high = 63};
 }

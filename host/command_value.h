@@ -1,29 +1,41 @@
-/* Command values: what stands behind an option. Each returns false where the text is not that. */
+/* Command values: options that several commands share. */
 #ifndef COMMAND_VALUE_H
 #define COMMAND_VALUE_H
 
 #include "forcing.h"
+#include "option_table.h"
+#include "site.h"
 
-#include <stdbool.h>
+/* A reader: of a time, into the time and the UTC offset of a site. */
+status command_read_time(const option *o, const char *text);
 
-/* Takes one number from low to high. */
-bool command_number(const char *text, double low, double high, double *out);
+/* A day at a place, as stated. */
+typedef struct command_day {
+    site place;
+    double date_s, utc_offset_h;
+} command_day;
 
-/* Takes up to `most` different numbers of devices, 0 to 63, with commas between. */
-bool command_device_numbers(const char *text, int most, int *out, size_t *out_count);
+/* The place, at the midnight that begins the day. */
+site command_day_site(const command_day *day);
 
-/* Takes LAT,LON in degrees, north- and east-positive. */
-bool command_place(const char *text, double *latitude_deg, double *longitude_deg);
+option command_site_option(site *place); /* --site LAT,LON, required */
+option command_date_option(command_day *day);
+option command_offset_option(command_day *day);
 
-/* Takes one of `count` words; sets its index. */
-bool command_word(const char *text, const char *const *words, int count, int *out);
+/* Laws, by the indices of their names; a convection of -1 is the model's own. */
+typedef struct command_laws {
+    int sky, convection, diffuse;
+    double roughness_length_m, wind_height_m;
+} command_laws;
 
-/* What stands behind the options of the same names; NULL: not given. */
-typedef struct command_law_texts {
-    const char *sky_longwave, *convection, *diffuse, *roughness_length_m, *wind_height_m;
-} command_law_texts;
+forcing_laws command_laws_of(const command_laws *laws);
 
-/* Sets the laws that are stated. Returns 0, or the exit code of a misuse. */
-int command_laws(const char *command, const command_law_texts *text, forcing_laws *out);
+option command_sky_option(command_laws *laws);
+option command_convection_option(command_laws *laws);
+option command_roughness_option(command_laws *laws);
+option command_wind_height_option(command_laws *laws);
+
+option command_cull_option(bool *is_wanted);
+option command_device_option(int64_t *index);
 
 #endif

@@ -29,5 +29,5 @@ int command_view(int argc, char **argv)
         execv(path, argv);
         rc = status_set(STATUS_FILE, "%s: %s: make all builds it", path, strerror(errno));
     }
-    return command_end("view", rc);
+    return program_end("radsig view", rc);
 }

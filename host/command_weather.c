@@ -2,44 +2,11 @@
 #include "command_scene.h"
 #include "weather.h"
 
-#include <getopt.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+static const char command[] = "radsig weather";
 
-static const char help[] = "usage: radsig weather SCENE -o FILE.wth [--set table.key=value]\n"
-                           "\n"
-                           "Writes the weather of a scene as a .wth history: one that it "
-                           "synthesises, to be edited, or one\n"
-                           "that it reads from a table of measurements.\n";
-
-static const struct option options[] = {{"set", required_argument, NULL, 'S'},
-                                        {"output", required_argument, NULL, 'o'},
-                                        {"help", no_argument, NULL, 'h'},
-                                        {NULL, 0, NULL, 0}};
-
-/* Returns 0, -1 where help is asked for, or the exit code of a misuse. */
-static int take_arguments(command_settings *settings, const char **out_scene, const char **out_path,
-                          int argc, char **argv)
-{
-    int option;
-
-    opterr = 0;
-    while ((option = getopt_long(argc, argv, ":o:", options, NULL)) != -1) {
-        if (option == 'h') return -1;
-        if (option == '?')
-            return command_misuse("weather", "unknown option '%s'", argv[optind - 1]);
-        if (option == ':') return command_misuse("weather", "%s needs a value", argv[optind - 1]);
-        if (option == 'o')
-            *out_path = optarg;
-        else if (!strchr(optarg, '=') || !command_settings_add(settings, "", optarg))
-            return command_misuse("weather", "'%s' is no value for --set", optarg);
-    }
-    if (optind + 1 != argc) return command_misuse("weather", "needs one scene");
-    if (!*out_path) return command_misuse("weather", "needs -o FILE.wth");
-    *out_scene = argv[optind];
-    return 0;
-}
+static const char purpose[] = "Writes the weather of a scene as a .wth history: one that it "
+                              "synthesises, to be edited, or one\n"
+                              "that it reads from a table of measurements.\n";
 
 /* A .wth has no column for it. */
 static void warn_about_longwave(const weather *w, const char *path)
@@ -69,14 +36,15 @@ out:
 
 int command_weather(int argc, char **argv)
 {
-    command_settings *settings = calloc(1, sizeof *settings);
-    const char *scene_path = NULL, *path = NULL;
-    int code;
+    command_settings settings = {0};
+    const char *path = NULL;
+    option list[] = {
+        {"output", 'o', "FILE.wth", "the file to write", .text = &path, .is_required = true},
+        command_set_option(&settings)};
+    const option_table table = {command, "SCENE", 1, 1, purpose, list, sizeof list / sizeof *list};
+    int code = option_table_read(&table, argc, argv, NULL);
 
-    if (!settings) return command_end("weather", status_set(STATUS_MEMORY, "no memory"));
-    code = take_arguments(settings, &scene_path, &path, argc, argv);
-    if (code < 0) fputs(help, stdout);
-    if (code == 0) code = command_end("weather", run(scene_path, settings, path));
-    free(settings);
-    return code < 0 ? 0 : code;
+    if (code == OPTION_TABLE_DONE) code = program_end(command, run(argv[1], &settings, path));
+    command_settings_free(&settings);
+    return code;
 }

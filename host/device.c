@@ -2,11 +2,13 @@
 #include "device.h"
 
 #include "device_error.h"
+#include "interrupt.h"
 #include "kernel_source.h"
 #include "launches.h"
 #include "pocl_affinity.h"
 
 #include <CL/cl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +17,9 @@ enum { PACKET = 16 };
 
 /* Times are kept as events until someone waits; then they are added up. */
 enum { PENDING_LIMIT = 1024 };
+
+/* An interrupt waits for about so much work on its way, in portions of long launches. */
+static const double pending_limit_s = 0.1, portion_s = 0.15;
 
 typedef struct built_kernel {
     cl_program program;
@@ -35,6 +40,7 @@ struct device {
     device_time times[KERNEL_COUNT];
     device_launch_event pending[PENDING_LIMIT];
     size_t pending_count;
+    double pending_s; /* what they are expected to take */
 };
 
 /* A packet a work-item where there are vectors. */
@@ -169,7 +175,7 @@ out:
     return rc;
 }
 
-/* Adds up the times of launches that have ended; waits for all of them. */
+/* Waits for all launches, and adds up their times. */
 static status collect_times(device *dev)
 {
     const cl_int error = clFinish(dev->queue);
@@ -193,8 +199,19 @@ static status collect_times(device *dev)
                             device_error(state));
     }
     dev->pending_count = 0;
+    dev->pending_s = 0.0;
     if (rc == STATUS_OK && error != CL_SUCCESS)
         rc = status_set(STATUS_DEVICE, "device %s: %s", dev->info.name, device_error(error));
+    return rc;
+}
+
+static status wait_for_launches(device *dev)
+{
+    status rc = STATUS_OK;
+
+    TRY(collect_times(dev));
+    TRY(interrupt_check());
+out:
     return rc;
 }
 
@@ -276,7 +293,7 @@ status device_memory_download(device *dev, device_memory memory, size_t bytes, v
     status rc = STATUS_OK;
     cl_int error;
 
-    TRY(collect_times(dev));
+    TRY(wait_for_launches(dev));
     if (bytes == 0) goto out;
     error = clEnqueueReadBuffer(dev->queue, memory, CL_TRUE, 0, bytes, destination, 0, NULL, NULL);
     NEED(error == CL_SUCCESS, allocation_status(error), "device %s: reading %zu bytes: %s",
@@ -291,7 +308,7 @@ status device_memory_map(device *dev, device_memory memory, size_t bytes, const 
     cl_int error;
     void *mapped;
 
-    TRY(collect_times(dev));
+    TRY(wait_for_launches(dev));
     mapped = clEnqueueMapBuffer(dev->queue, memory, CL_TRUE, CL_MAP_READ, 0, bytes, 0, NULL, NULL,
                                 &error);
     NEED(mapped, allocation_status(error), "device %s: mapping %zu bytes: %s", dev->info.name,
@@ -348,8 +365,13 @@ out:
 
 status device_prepare(device *dev, size_t kernel)
 {
+    status rc = STATUS_OK;
+
     if (dev->kernels[kernel].kernel) return STATUS_OK;
-    return build_kernel(dev, device_kernels[kernel].name, &dev->kernels[kernel]);
+    TRY(interrupt_check());
+    TRY(build_kernel(dev, device_kernels[kernel].name, &dev->kernels[kernel]));
+out:
+    return rc;
 }
 
 static status set_arguments(device *dev, size_t kernel, const char *arguments)
@@ -370,25 +392,58 @@ out:
     return rc;
 }
 
+/* What a launch is expected to take, going by the others of its kernel; the first one is waited for. */
+static double expected_s(const device_time *so_far)
+{
+    return so_far->launches ? so_far->seconds / so_far->launches : pending_limit_s;
+}
+
+static status enqueue(device *dev, size_t kernel, size_t first, size_t size,
+                      const device_shape *shape)
+{
+    status rc = STATUS_OK;
+    const double wait_s = expected_s(&dev->times[kernel]);
+    const size_t offset[2] = {first, 0}, global[2] = {size, shape->size[1]};
+    const size_t local[2] = {shape->local, 1};
+    const bool is_full = dev->pending_count == PENDING_LIMIT;
+    cl_event event;
+    cl_int error;
+
+    if (is_full || dev->pending_s + wait_s > pending_limit_s) TRY(collect_times(dev));
+    TRY(interrupt_check());
+    error = clEnqueueNDRangeKernel(dev->queue, dev->kernels[kernel].kernel, 2,
+                                   first ? offset : NULL, global, local, 0, NULL, &event);
+    NEED(error == CL_SUCCESS, allocation_status(error), "kernel %s over %zu x %zu on %s: %s",
+         device_kernels[kernel].name, shape->size[0], shape->size[1], dev->info.name,
+         device_error(error));
+    dev->pending[dev->pending_count++] = (device_launch_event){event, kernel};
+    dev->pending_s += wait_s;
+out:
+    return rc;
+}
+
+/* Work-items along x of one portion of a launch over `padded` of them. */
+static size_t portion_of(const device *dev, const device_shape *shape, size_t padded)
+{
+    const double items = portion_s * dev->info.compute_units / shape->item_s;
+    const size_t groups = (size_t)fmin(items / (double)shape->local, (double)padded);
+
+    if (shape->item_s == 0.0 || strcmp(dev->info.type, "cpu")) return padded;
+    return (groups ? groups : 1) * shape->local;
+}
+
 status device_launch(device *dev, size_t kernel, device_shape shape, const void *arguments)
 {
     status rc = STATUS_OK;
-    const size_t local[2] = {shape.local, 1};
-    const size_t global[2] = {(shape.size[0] + shape.local - 1) / shape.local * shape.local,
-                              shape.size[1]};
-    cl_event event;
-    cl_int error;
+    const size_t padded = (shape.size[0] + shape.local - 1) / shape.local * shape.local;
+    const size_t portion = portion_of(dev, &shape, padded);
 
     if (shape.size[0] == 0 || shape.size[1] == 0) return STATUS_OK;
     TRY(device_prepare(dev, kernel));
     TRY(set_arguments(dev, kernel, arguments));
-    if (dev->pending_count == PENDING_LIMIT) TRY(collect_times(dev));
-    error = clEnqueueNDRangeKernel(dev->queue, dev->kernels[kernel].kernel, 2, NULL, global, local,
-                                   0, NULL, &event);
-    NEED(error == CL_SUCCESS, allocation_status(error), "kernel %s over %zu x %zu on %s: %s",
-         device_kernels[kernel].name, shape.size[0], shape.size[1], dev->info.name,
-         device_error(error));
-    dev->pending[dev->pending_count++] = (device_launch_event){event, kernel};
+    for (size_t first = 0; first < padded; first += portion)
+        TRY(enqueue(dev, kernel, first, padded - first < portion ? padded - first : portion,
+                    &shape));
 out:
     return rc;
 }
@@ -398,13 +453,13 @@ device_shape device_ray_shape(const device *dev, size_t rays, size_t y)
     const size_t lanes = dev->info.ray_lanes;
 
     /* A packet's stack is large: a group of few stays in the cache. */
-    return (device_shape){{(rays + lanes - 1) / lanes, y}, lanes == 1 ? 64 : 4};
+    return (device_shape){{(rays + lanes - 1) / lanes, y}, lanes == 1 ? 64 : 4, 0.0};
 }
 
 device_shape device_bundle_shape(const device *dev, size_t points, size_t y)
 {
     if (dev->info.ray_lanes == 1) return device_ray_shape(dev, points, y);
-    return (device_shape){{(points + RAY_BUNDLE - 1) / RAY_BUNDLE, y}, 1};
+    return (device_shape){{(points + RAY_BUNDLE - 1) / RAY_BUNDLE, y}, 1, 0.0};
 }
 
 status device_times(device *dev, const device_time **out, size_t *out_count)

@@ -98,16 +98,19 @@ void device_memory_unmap(device *dev, device_memory memory, const void *mapped);
 typedef struct device_shape {
     size_t size[2];
     size_t local; /* work-items of a group, along x */
+    double
+        item_s; /* about what a work-item, with all of its y, takes on one core; 0: a launch is short
+                    */
 } device_shape;
 
 static inline device_shape shape1(size_t x)
 {
-    return (device_shape){{x, 1}, 64};
+    return (device_shape){{x, 1}, 64, 0.0};
 }
 
 static inline device_shape shape2(size_t x, size_t y)
 {
-    return (device_shape){{x, y}, 64};
+    return (device_shape){{x, y}, 64, 0.0};
 }
 
 /* Launches whose work-items have ray_lanes rays each: `rays` of them along x. */
@@ -143,8 +146,9 @@ extern const device_kernel device_kernels[];
 status device_prepare(device *dev, size_t kernel);
 
 /* Launches a kernel over a shape; x is padded to the local size, so the kernel returns where its index
- * is past the end. A failure names kernel, shape and error; the build log is in the message. Only
- * launches.h calls it, by functions whose arguments have names and types:
+ * is past the end. A CPU takes long launches in portions along x. Waits where others would be much work,
+ * so that an interrupt, with which launches and waits fail, ends within a fraction of a second. A failure
+ * names kernel, shape and error; the build log is in the message. Only launches.h calls it, by functions whose arguments have names and types:
  *   planck_run(dev, shape1(n), &(planck_args){.count = n, .temperature_k = t, .radiance = out})
  *   arguments   a record of the kernel's arguments. A buffer that is left out is an error unless the
  *               kernel's signature says OPTIONAL */

@@ -1,25 +1,21 @@
 #include "errand.h"
 
+#include "interrupt.h"
+
 #include <pthread.h>
 #include <stdbool.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 /* More would hold as many files in memory at once. */
 enum { THREAD_LIMIT = 8 };
 
-/* How an errand ended; messages and warnings are a thread's own. */
-typedef struct ending {
-    status rc;
-    char *message, *warnings;
-} ending;
-
 typedef struct round {
     const errand *list;
     size_t count, next;
-    ending *endings; /* shape (count) */
+    status_record *endings; /* shape (count) */
     bool has_failed;
+    const atomic_int *token;
     pthread_mutex_t lock;
 } round;
 
@@ -44,27 +40,23 @@ static void *work(void *argument)
     round *r = argument;
     size_t at;
 
+    interrupt_obey(r->token);
     while (take(r, &at)) {
-        ending *e = &r->endings[at];
-        e->rc = r->list[at].run(r->list[at].self);
-        e->warnings = strdup(status_warnings());
-        if (e->rc == STATUS_OK) continue;
-        e->message = strdup(status_message());
-        fail(r);
+        status rc = interrupt_check();
+        if (rc == STATUS_OK) rc = r->list[at].run(r->list[at].self);
+        r->endings[at] = status_record_take(rc);
+        if (rc != STATUS_OK) fail(r);
     }
     return NULL;
 }
 
 static status tell(const round *r)
 {
-    for (size_t i = 0; i < r->count; i++) {
-        const ending *e = &r->endings[i];
-        if (e->warnings && *e->warnings)
-            status_warn("%.*s", (int)strlen(e->warnings) - 1, e->warnings);
-        if (e->rc != STATUS_OK)
-            return status_set(e->rc, "%s", e->message ? e->message : "no memory");
-    }
-    return STATUS_OK;
+    status rc = STATUS_OK;
+
+    for (size_t i = 0; i < r->count; i++) TRY(status_record_tell(&r->endings[i]));
+out:
+    return rc;
 }
 
 status errand_run(const errand *list, size_t count)
@@ -75,7 +67,10 @@ status errand_run(const errand *list, size_t count)
                         : processors < THREAD_LIMIT ? (size_t)processors
                                                     : THREAD_LIMIT;
     const size_t wanted = count < most ? count : most;
-    round r = {.list = list, .count = count, .lock = PTHREAD_MUTEX_INITIALIZER};
+    round r = {.list = list,
+               .count = count,
+               .token = interrupt_token(),
+               .lock = PTHREAD_MUTEX_INITIALIZER};
     pthread_t thread[THREAD_LIMIT];
     size_t started = 0;
 
@@ -87,10 +82,7 @@ status errand_run(const errand *list, size_t count)
     for (size_t i = 0; i < started; i++) pthread_join(thread[i], NULL);
     rc = tell(&r);
 out:
-    for (size_t i = 0; r.endings && i < count; i++) {
-        free(r.endings[i].message);
-        free(r.endings[i].warnings);
-    }
+    for (size_t i = 0; r.endings && i < count; i++) status_record_free(&r.endings[i]);
     free(r.endings);
     pthread_mutex_destroy(&r.lock);
     return rc;

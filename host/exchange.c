@@ -13,6 +13,10 @@ enum { WORK_ROWS = 9, PASSES = 8 };
 #define LEAST_SHARE 0.005f /* of a view, that facets take */
 #define SETTLED_W_M2 2.0f
 
+/* What a step of a column takes on one core in the kernels, s. */
+#define SENT_S 1e-7
+#define RECEIVED_S 3e-7
+
 /* What stays the same over the passes. */
 typedef struct exchange {
     const scene *s;
@@ -59,44 +63,70 @@ out:
     return rc;
 }
 
-/* Launches the kernel over the patches; the heat along facets stays with the model. */
+/* What the kernel works with. */
+typedef struct conducting {
+    patch_tables patches;
+    uint_buffer lit;
+    conduction_progress *at; /* shape (patch_count) */
+} conducting;
+
+static void conducting_free(conducting *c)
+{
+    device_release(c->patches.progress);
+    device_release(c->patches.numbers);
+    device_release(c->patches.groups);
+    device_release(c->patches.links);
+    device_release(c->patches.patch_first);
+    device_release(c->lit);
+    free(c->at);
+}
+
+static status conducting_open(conducting *c, const exchange *x, const conduction_map *map)
+{
+    status rc = STATUS_OK;
+    device *dev = x->model->dev;
+    const size_t n = map->count, patches = map->patch_count;
+
+    c->at = calloc(patches, sizeof *c->at);
+    NEED(c->at, STATUS_MEMORY, "no memory for %zu patches", patches);
+    TRY(upload_lit(x, map->facet, n, &c->lit));
+    TRY(device_allocate(dev, &c->patches.patch_first, patches + 1, map->patch_first));
+    TRY(device_allocate(dev, &c->patches.links, n, map->link));
+    TRY(device_allocate(dev, &c->patches.groups, n, NULL));
+    TRY(device_allocate(dev, &c->patches.numbers, n * WORK_ROWS, NULL));
+    TRY(device_allocate(dev, &c->patches.progress, patches, c->at));
+out:
+    return rc;
+}
+
+/* Launches the kernel over the patches until all are done; the heat along facets stays with the model. */
 static status conduct_map(const exchange *x, const conduction_map *map,
                           layered_record_buffer facets)
 {
     status rc = STATUS_OK;
     thermal *t = x->model;
-    const size_t n = map->count;
-    const thermal_span span = span_of(x, n);
-    const device_shape shape = {{map->patch_count, 1}, 1};
-    uint_buffer first = {0}, lit = {0};
-    conduction_record_buffer links = {0};
-    conduction_group_buffer groups = {0};
-    float_buffer rows = {0};
+    const device_shape shape = {.size = {map->patch_count, 1}, .local = 1};
+    conducting c = {0};
+    bool is_done = false;
 
-    TRY(device_allocate(t->dev, &first, map->patch_count + 1, map->patch_first));
-    TRY(device_allocate(t->dev, &links, n, map->link));
-    TRY(upload_lit(x, map->facet, n, &lit));
-    TRY(device_allocate(t->dev, &groups, n, NULL));
-    TRY(device_allocate(t->dev, &rows, n * WORK_ROWS, NULL));
-    TRY(device_allocate(t->dev, &t->exchange.lateral_w_m2, n * 2 * t->step_count, NULL));
-    TRY(conduction_run(t->dev, shape,
-                       &(conduction_args){.span = span,
-                                          .patch_count = map->patch_count,
-                                          .patch_first = first,
-                                          .facets = facets,
-                                          .links = links,
-                                          .load = thermal_loads(t, lit),
-                                          .exchange = t->exchange,
-                                          .groups = groups,
-                                          .numbers = rows,
-                                          .out_w_m2 = t->exchange.lateral_w_m2}));
-    t->exchange.lateral_columns = (uint32_t)n;
+    TRY(conducting_open(&c, x, map));
+    TRY(device_allocate(t->dev, &t->exchange.lateral_w_m2, map->count * 2 * t->step_count, NULL));
+    const conduction_args args = {.span = span_of(x, map->count),
+                                  .patch_count = map->patch_count,
+                                  .facets = facets,
+                                  .load = thermal_loads(t, c.lit),
+                                  .exchange = t->exchange,
+                                  .patch = c.patches,
+                                  .out_w_m2 = t->exchange.lateral_w_m2};
+    while (!is_done) {
+        TRY(conduction_run(t->dev, shape, &args));
+        TRY(device_download(t->dev, c.patches.progress, map->patch_count, c.at));
+        is_done = true;
+        for (uint32_t i = 0; i < map->patch_count; i++) is_done &= c.at[i].is_done;
+    }
+    t->exchange.lateral_columns = (uint32_t)map->count;
 out:
-    device_release(rows);
-    device_release(groups);
-    device_release(lit);
-    device_release(links);
-    device_release(first);
+    conducting_free(&c);
     return rc;
 }
 
@@ -170,6 +200,12 @@ out:
     return rc;
 }
 
+/* Launches that go through all steps of a facet or a column. */
+static device_shape shape_of(const exchange *x, size_t count, double step_s)
+{
+    return (device_shape){{count, 1}, 64, step_s * (double)x->model->step_count};
+}
+
 /* Takes all facets through the weather with what they received so far, then lets them send anew.
  *   is_first   nothing was received yet */
 static status pass(exchange *x, bool is_first)
@@ -178,18 +214,20 @@ static status pass(exchange *x, bool is_first)
     thermal *t = x->model;
     const thermal_span span = span_of(x, x->facet_count);
     const uint32_t n = span.facet_count;
+    device_shape each_step = shape_of(x, t->exchange.received_columns, RECEIVED_S);
     exchange_tables before = t->exchange;
     layered_record_buffer facets = {0};
 
+    each_step.size[1] = t->step_count;
     if (is_first) before.received_columns = 0;
     TRY(thermal_upload_layered(t, x->facet, x->facet_count, &facets));
-    TRY(layered_run(t->dev, thermal_shape(n),
+    TRY(layered_run(t->dev, thermal_shape(t, n),
                     &(layered_args){.span = span,
                                     .facets = facets,
                                     .load = thermal_loads(t, x->lit),
                                     .exchange = before,
                                     .temperature_k = x->sent_w_m2}));
-    TRY(radiosity_run(t->dev, shape1(n),
+    TRY(radiosity_run(t->dev, shape_of(x, n, SENT_S),
                       &(radiosity_args){.facet_count = n,
                                         .step_count = span.step_count,
                                         .facet = facets,
@@ -200,7 +238,7 @@ static status pass(exchange *x, bool is_first)
     const float_buffer old = t->exchange.received_w_m2;
     t->exchange.received_w_m2 = x->before_w_m2;
     x->before_w_m2 = old;
-    TRY(irradiation_run(t->dev, shape2(t->exchange.received_columns, t->step_count),
+    TRY(irradiation_run(t->dev, each_step,
                         &(irradiation_args){.column_count = t->exchange.received_columns,
                                             .facet_count = n,
                                             .view = x->view,
@@ -225,7 +263,7 @@ static status find_change(const exchange *x, bool *out_changes)
 
     NEED(w_m2, STATUS_MEMORY, "no memory for %u facets", columns);
     TRY(device_allocate(t->dev, &most, columns, NULL));
-    TRY(largest_change_run(t->dev, shape1(columns),
+    TRY(largest_change_run(t->dev, shape_of(x, columns, SENT_S),
                            &(largest_change_args){.column_count = columns,
                                                   .row_count = (uint)t->step_count,
                                                   .before = x->before_w_m2,

@@ -2,6 +2,7 @@
 
 #include "array.h"
 #include "constants.h"
+#include "number.h"
 #include "output_file.h"
 
 #include <math.h>
@@ -67,19 +68,18 @@ out:
 static status read_id(record_file *file, int id[3])
 {
     status rc = STATUS_OK;
-    const char *text, *from;
-    char *end;
+    const char *text;
+    int64_t number;
 
     TRY(record_file_text(file, &text, "an id such as 1-1-1"));
-    from = text;
-    for (int i = 0; i < 3; i++, from = end + 1) {
-        const long number = strtol(from, &end, 10);
-        if (*from >= '0' && *from <= '9' && number <= FACET_LIMIT && *end == (i < 2 ? '-' : '\0')) {
-            id[i] = (int)number;
-            continue;
+    for (int i = 0; i < 3; i++, text++) {
+        const bool has_digit = *text >= '0' && *text <= '9';
+        text = has_digit ? number_take_whole(text, 0, FACET_LIMIT, &number) : NULL;
+        if (!text || *text != (i < 2 ? '-' : '\0')) {
+            rc = record_file_reject(file, "an id such as 1-1-1");
+            goto out;
         }
-        rc = record_file_reject(file, "an id such as 1-1-1");
-        goto out;
+        id[i] = (int)number;
     }
 out:
     return rc;

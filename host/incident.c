@@ -168,7 +168,7 @@ status incident_compute(const incident *in, const incident_pixels *p, float_buff
     const bool is_bundle = device_describe(ray_scene_device(in->scene))->ray_lanes > 1;
     const uint32_t at_once = is_bundle ? RAY_BUNDLE : PIXELS_AT_ONCE;
     const uint32_t groups = (p->frame.pixel_count + at_once - 1) / at_once;
-    const device_shape shape = {{groups, 1}, is_bundle ? 1 : 4};
+    const device_shape shape = {{groups, 1}, is_bundle ? 1 : 4, 0.0};
 
     TRY(incident_run(ray_scene_device(in->scene), shape,
                      &(incident_args){.frame = p->frame,

@@ -2,19 +2,8 @@
 #include "command.h"
 
 #include <signal.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <string.h>
 
-#ifndef RADSIG_VERSION
-#error "the Makefile defines RADSIG_VERSION"
-#endif
-
-static const struct {
-    const char *name;
-    int (*run)(int argc, char **argv);
-    const char *purpose;
-} commands[] = {
+static const program_command commands[] = {
     {"render", command_render, "make the image of a scene and its truth planes"},
     {"check", command_check, "read a scene, report every error, summarise it"},
     {"trace", command_trace, "intersect rays from stdin with meshes"},
@@ -27,40 +16,10 @@ static const struct {
     {"devices", command_devices, "list the OpenCL devices"},
 };
 
-enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
-
-static void print_help(FILE *stream)
-{
-    fputs("usage: radsig COMMAND [ARGUMENT ...]\n\n", stream);
-    for (int i = 0; i < COMMAND_COUNT; i++)
-        fprintf(stream, "  %-13s %s\n", commands[i].name, commands[i].purpose);
-    fputs("\nradsig COMMAND --help tells more; radsig --version prints the version.\n"
-          "Exit code: 0 done, 1 failed, 2 wrong usage, 130 interrupted.\n",
-          stream);
-}
-
 int main(int argc, char **argv)
 {
-    if (argc < 2) {
-        print_help(stderr);
-        return EXIT_USAGE;
-    }
-    const bool wants_version = !strcmp(argv[1], "--version");
-    if (wants_version || !strcmp(argv[1], "--help") || !strcmp(argv[1], "-h")) {
-        if (argc > 2) {
-            fprintf(stderr, "radsig: %s stands alone, found '%s' (radsig --help)\n", argv[1],
-                    argv[2]);
-            return EXIT_USAGE;
-        }
-        if (wants_version)
-            puts("radsig " RADSIG_VERSION);
-        else
-            print_help(stdout);
-        return 0;
-    }
+    const program radsig = {"radsig", commands, sizeof commands / sizeof *commands};
+
     signal(SIGXFSZ, SIG_IGN); /* a limit on files is then an error of writing */
-    for (int i = 0; i < COMMAND_COUNT; i++)
-        if (!strcmp(argv[1], commands[i].name)) return commands[i].run(argc - 1, argv + 1);
-    fprintf(stderr, "radsig: there is no command '%s' (radsig --help)\n", argv[1]);
-    return EXIT_USAGE;
+    return program_run(&radsig, argc, argv);
 }

@@ -108,3 +108,8 @@ const material *material_by_code(const material_library *library, int code)
         if (library->items[i].code == code) return &library->items[i];
     return NULL;
 }
+
+void material_offer_names(const material_library *library, spelling *near)
+{
+    for (int i = 0; i < library->count; i++) spelling_offer(near, library->items[i].name);
+}

@@ -2,6 +2,7 @@
 #ifndef MATERIAL_H
 #define MATERIAL_H
 
+#include "spelling.h"
 #include "status.h"
 
 enum { MATERIAL_NAME_SIZE = 64, MATERIAL_FILE_SIZE = 256 };
@@ -33,5 +34,8 @@ void material_library_free(material_library *library);
 /* NULL if no material has that name or code. */
 const material *material_by_name(const material_library *library, const char *name);
 const material *material_by_code(const material_library *library, int code);
+
+/* Offers the names of a library in place of one that it lacks. */
+void material_offer_names(const material_library *library, spelling *near);
 
 #endif

@@ -1,6 +1,8 @@
 #define _GNU_SOURCE
 #include "pocl_affinity.h"
 
+#include "number.h"
+
 #include <sched.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -14,6 +16,7 @@ static bool is_safe(void)
 {
     const char *workers = getenv("POCL_MAX_PTHREAD_COUNT");
     cpu_set_t cpus;
+    int64_t stated;
 
     if (is_set("POCL_AFFINITY")) return false;
     if (is_set("OMPI_COMM_WORLD_RANK") || is_set("PMI_RANK") || is_set("SLURM_PROCID"))
@@ -22,7 +25,7 @@ static bool is_safe(void)
     const int count = CPU_COUNT(&cpus);
     for (int i = 0; i < count; i++)
         if (!CPU_ISSET(i, &cpus)) return false;
-    return !workers || atoi(workers) == count;
+    return !workers || number_read_whole(workers, count, count, &stated);
 }
 
 void pocl_affinity_set(void)

@@ -99,7 +99,7 @@ static device_shape batches(const device *dev, uint32_t count)
     const size_t packed = 1024;
 
     if (device_describe(dev)->ray_lanes == 1) return shape1(count);
-    return (device_shape){{(count + packed - 1) / packed, 1}, 1};
+    return (device_shape){{(count + packed - 1) / packed, 1}, 1, 0.0};
 }
 
 status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t stride, float_buffer rays,

@@ -1,5 +1,7 @@
 #include "ray_stream.h"
 
+#include "number.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -41,13 +43,13 @@ out:
 /* Finds exactly six numbers. */
 static bool parse(const char *line, double out[6])
 {
-    char *end = NULL;
+    static const char blanks[] = " \t\r\n";
 
-    for (int k = 0; k < 6; k++, line = end) {
-        out[k] = strtod(line, &end);
-        if (end == line || (*end && !strchr(" \t\r\n", *end))) return false;
+    for (int k = 0; k < 6; k++) {
+        line = number_take(line + strspn(line, blanks), &out[k]);
+        if (!line || (*line && !strchr(blanks, *line))) return false;
     }
-    return line[strspn(line, " \t\r\n")] == 0;
+    return line[strspn(line, blanks)] == '\0';
 }
 
 static status read_lines(ray_stream *stream, ray_batch *out)

@@ -1,7 +1,9 @@
 #include "record_file.h"
 
+#include "input_file.h"
+#include "number.h"
+
 #include <ctype.h>
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -19,20 +21,16 @@ struct record_file {
 static status read_whole(record_file *file)
 {
     status rc = STATUS_OK;
-    size_t size = 0, capacity = 1 << 16, got;
-    FILE *stream = fopen(file->path, "rb");
+    char message[1024];
+    FILE *stream = NULL;
+    size_t size;
 
-    NEED(stream, STATUS_FILE, "%s: %s", file->path, strerror(errno));
-    file->text = malloc(capacity);
+    NEED(input_file_open(&stream, &size, file->path, INPUT_FILE_TEXT_LIMIT, message,
+                         sizeof message) == 0,
+         STATUS_FILE, "%s", message);
+    file->text = malloc(size + 1);
     NEED(file->text, STATUS_MEMORY, "%s: no memory to read it", file->path);
-    while ((got = fread(file->text + size, 1, capacity - size - 1, stream)) > 0) {
-        size += got;
-        if (size + 1 < capacity) continue;
-        char *larger = realloc(file->text, capacity *= 2);
-        NEED(larger, STATUS_MEMORY, "%s: no memory to read it", file->path);
-        file->text = larger;
-    }
-    NEED(!ferror(stream), STATUS_FILE, "%s: %s", file->path, strerror(errno));
+    NEED(fread(file->text, 1, size, stream) == size, STATUS_FILE, "%s: cannot be read", file->path);
     file->text[size] = '\0';
     NEED(strlen(file->text) == size, STATUS_FILE, "%s: is binary, expected text", file->path);
 out:
@@ -207,15 +205,6 @@ int record_file_line(const record_file *file)
     return file->taken_line;
 }
 
-/* A number starts with a sign, a digit or a point: strtod alone would take "nan" and "0x1". */
-static bool starts_number(const char *text)
-{
-    if (*text == '+' || *text == '-') text++;
-    if (*text == '.') text++;
-    return isdigit((unsigned char)*text) &&
-           !(text[0] == '0' && tolower((unsigned char)text[1]) == 'x');
-}
-
 int record_numbers(const char *text, size_t limit, double *out)
 {
     int count = 0;
@@ -223,12 +212,10 @@ int record_numbers(const char *text, size_t limit, double *out)
     for (;;) {
         while (isspace((unsigned char)*text) || *text == ',') text++;
         if (!*text) return count;
-        if (!starts_number(text)) return -1;
-        char *end;
-        const double value = strtod(text, &end);
-        if (!isfinite(value)) return -1;
+        double value;
+        text = number_take(text, &value);
+        if (!text) return -1;
         if ((size_t)count < limit) out[count] = value;
         count++;
-        text = end;
     }
 }

@@ -10,8 +10,8 @@
 
 typedef struct record_file record_file;
 
-/* Reads the whole file; CR LF ends a line too. Fails with STATUS_FILE if it is absent, a folder,
- * or holds a zero byte (a binary file). */
+/* Reads the whole file; CR LF ends a line too. Fails with STATUS_FILE if it cannot be opened
+ * (input_file.h), or holds a zero byte (a binary file). */
 status record_file_open(record_file **out, const char *path);
 void record_file_free(record_file *file);
 

@@ -2,6 +2,7 @@
 
 #include "clock.h"
 #include "errand.h"
+#include "interrupt.h"
 #include "quick_look.h"
 #include "render_pool.h"
 #include "render_probe.h"
@@ -63,10 +64,8 @@ static status check_names(const writing *w)
 
     for (const char *at = w->options->planes; at;) {
         const size_t length = strcspn(at, ",");
-        bool known = false;
         snprintf(name, sizeof name, "%.*s", (int)length, at);
-        for (size_t i = 0; i < w->plane_count; i++) known |= !strcmp(w->planes[i].name, name);
-        NEED(known, STATUS_ARGUMENT, "there is no plane '%s' in this scene", name);
+        TRY(render_plane_check(w->planes, w->plane_count, name));
         at = at[length] ? at + length + 1 : NULL;
     }
 out:
@@ -163,7 +162,7 @@ static void show_progress(void *listener, uint32_t done)
     const writing *w = listener;
     const uint32_t all = (uint32_t)w->s->camera.columns * (uint32_t)w->s->camera.rows;
 
-    if (w->options->percent) *w->options->percent = (sig_atomic_t)(100 * (uint64_t)done / all);
+    if (w->options->percent) *w->options->percent = (int)(100 * (uint64_t)done / all);
     if (!w->options->shows_progress) return;
     fprintf(stderr, "\r%s: %3.0f %% of %u pixels%s", w->s->name, floor(100.0 * done / all), all,
             done == all ? "\n" : "");
@@ -185,7 +184,7 @@ static status render_pixels(writing *w)
     status rc = STATUS_OK;
     const render_store store = {write_values, w};
 
-    TRY(render_pool_run(w->pool, w->values, &store, show_progress, w, w->options->stop));
+    TRY(render_pool_run(w->pool, w->values, &store, show_progress, w));
     w->planes = render_planes(render_pool_render(w->pool), &w->plane_count);
 out:
     return rc;
@@ -341,7 +340,7 @@ static status write_files(writing *w, double start)
         TRY(render_probe_write(w->folder, w->s, render_pool_render(w->pool), w->options->probe[0],
                                w->options->probe[1]));
     TRY(write_summary(w, start));
-    NEED(!*w->options->stop, STATUS_INTERRUPTED, "interrupted");
+    TRY(interrupt_check());
     TRY(output_folder_commit(w->folder));
 out:
     return rc;

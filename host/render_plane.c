@@ -1,7 +1,10 @@
 #include "render_plane.h"
 
+#include "spelling.h"
+
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct plane_kind {
     const char *name, *unit;
@@ -94,4 +97,17 @@ status render_plane_list(render_plane **out, size_t *out_count, const scene *s,
     *out_count = n;
 out:
     return rc;
+}
+
+status render_plane_check(const render_plane *list, size_t count, const char *name)
+{
+    spelling near = spelling_of(name);
+    char hint[SPELLING_HINT_SIZE];
+
+    for (size_t i = 0; i < count; i++) {
+        if (!strcmp(list[i].name, name)) return STATUS_OK;
+        spelling_offer(&near, list[i].name);
+    }
+    return status_set(STATUS_ARGUMENT, "there is no plane '%s' in this scene%s", name,
+                      spelling_hint(&near, "", hint));
 }

@@ -29,4 +29,7 @@ typedef struct render_store {
 status render_plane_list(render_plane **out, size_t *out_count, const scene *s,
                          const double *centre_um, const double *width_um);
 
+/* Fails with STATUS_ARGUMENT unless the list has a plane of that name. */
+status render_plane_check(const render_plane *list, size_t count, const char *name);
+
 #endif

@@ -32,6 +32,29 @@ static void drop(render_pool *pool, size_t index)
     for (size_t i = index; i < pool->count; i++) pool->members[i] = pool->members[i + 1];
 }
 
+/* Leaves a member out that failed, unless it is the last one or the others would fail alike. */
+static status leave_out(render_pool *pool, size_t index, status rc)
+{
+    if (pool->count == 1 || (rc != STATUS_DEVICE && rc != STATUS_MEMORY)) return rc;
+    status_warn("%s failed, the others do without it: %s", pool->members[index].name,
+                status_message());
+    drop(pool, index);
+    return STATUS_OK;
+}
+
+/* Opens the render of the first member that can. */
+static status open_first(render_pool *pool)
+{
+    status rc = STATUS_OK;
+
+    while (!pool->members[0].r) {
+        rc = render_open(&pool->members[0].r, pool->s, pool->members[0].dev);
+        if (rc != STATUS_OK) TRY(leave_out(pool, 0, rc));
+    }
+out:
+    return rc;
+}
+
 status render_pool_open(render_pool **out, const scene *s, device *const *dev, size_t count)
 {
     status rc = STATUS_OK;
@@ -50,12 +73,7 @@ status render_pool_open(render_pool **out, const scene *s, device *const *dev, s
         *m = (member){.pool = pool, .dev = dev[pool->count]};
         snprintf(m->name, sizeof m->name, "device %u (%s)", info->index, info->name);
     }
-    while ((rc = render_open(&pool->members[0].r, s, pool->members[0].dev)) != STATUS_OK) {
-        if (pool->count == 1 || (rc != STATUS_DEVICE && rc != STATUS_MEMORY)) goto out;
-        status_warn("%s failed, the others do without it: %s", pool->members[0].name,
-                    status_message());
-        drop(pool, 0);
-    }
+    TRY(open_first(pool));
     *out = pool;
     pool = NULL;
 out:
@@ -78,8 +96,11 @@ status render_pool_move(render_pool *pool, const scene *s)
     status rc = STATUS_OK;
 
     pool->s = s;
-    for (size_t i = 0; i < pool->count; i++)
-        if (pool->members[i].r) TRY(render_move(pool->members[i].r, s));
+    for (size_t i = pool->count; i-- > 0;) {
+        rc = pool->members[i].r ? render_move(pool->members[i].r, s) : STATUS_OK;
+        if (rc != STATUS_OK) TRY(leave_out(pool, i, rc));
+    }
+    TRY(open_first(pool));
 out:
     return rc;
 }
@@ -107,8 +128,7 @@ static status compute(void *self, uint32_t first, uint32_t count)
 }
 
 status render_pool_run(render_pool *pool, float *const *values, const render_store *store,
-                       void (*on_progress)(void *listener, uint32_t done), void *listener,
-                       const volatile sig_atomic_t *stop)
+                       void (*on_progress)(void *listener, uint32_t done), void *listener)
 {
     status rc = STATUS_OK;
     const view *camera = &pool->s->camera;
@@ -116,8 +136,7 @@ status render_pool_run(render_pool *pool, float *const *values, const render_sto
                                 .worker = pool->workers,
                                 .worker_count = pool->count,
                                 .on_progress = on_progress,
-                                .listener = listener,
-                                .stop = stop};
+                                .listener = listener};
 
     pool->pixel_count = job.pixel_count;
     pool->values = values;

@@ -14,14 +14,14 @@ typedef struct render_pool render_pool;
 status render_pool_open(render_pool **out, const scene *s, device *const *dev, size_t count);
 void render_pool_free(render_pool *pool);
 
-/* Goes on with the same scene at another time, as render_move does. */
+/* Goes on with the same scene at another time, as render_move does. A device that fails is left out as in
+ * render_pool_open. */
 status render_pool_move(render_pool *pool, const scene *s);
 
 /* Computes all pixels as render_tile does: tiles go to whichever device is free, those of one that
- * fails to the others. Once for each time. Listener and stop: tile_queue.h. */
+ * fails to the others. Once for each time. Listener and interrupts: tile_queue.h. */
 status render_pool_run(render_pool *pool, float *const *values, const render_store *store,
-                       void (*on_progress)(void *listener, uint32_t done), void *listener,
-                       const volatile sig_atomic_t *stop);
+                       void (*on_progress)(void *listener, uint32_t done), void *listener);
 
 /* Those devices that have not failed, at least one, NULL past their end; and the render of the
  * first of them, with the same planes as all others. Both belong to the pool. */

@@ -131,7 +131,7 @@ static status tabulate_bands(render_tables *t, device *dev, const scene *s)
     status rc = STATUS_OK;
     const uint32_t samples = t->bands->sample_count, rows = scene_emissivity_rows(s);
     const size_t bands = s->band_count;
-    const device_shape temperatures = {{TEMPERATURE_GROUPS, bands}, 4};
+    const device_shape temperatures = {{TEMPERATURE_GROUPS, bands}, 4, 0.0};
 
     TRY(device_allocate(dev, &t->ln_radiance, bands * BAND_TEMPERATURES, NULL));
     TRY(device_allocate(dev, &t->band_emissivity, bands * rows, NULL));

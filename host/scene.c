@@ -2,6 +2,7 @@
 
 #include "../kernels/lobe.h"
 #include "scene_parts.h"
+#include "spelling.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -246,7 +247,7 @@ static const char *next_name(const char *list, char *name, size_t size)
 status scene_keep_bands(scene *s, const char *names)
 {
     status rc = STATUS_OK;
-    char name[256];
+    char name[256], hint[SPELLING_HINT_SIZE];
     bool *kept = calloc(s->band_count, sizeof *kept);
     uint32_t count = 0;
 
@@ -254,8 +255,11 @@ status scene_keep_bands(scene *s, const char *names)
     for (const char *left = names; left;) {
         uint32_t i = 0;
         left = next_name(left, name, sizeof name);
-        while (i < s->band_count && strcmp(s->bands[i].name, name)) i++;
-        NEED(i < s->band_count, STATUS_ARGUMENT, "there is no band '%s' in this scene", name);
+        spelling near = spelling_of(name);
+        for (; i < s->band_count && strcmp(s->bands[i].name, name); i++)
+            spelling_offer(&near, s->bands[i].name);
+        NEED(i < s->band_count, STATUS_ARGUMENT, "there is no band '%s' in this scene%s", name,
+             spelling_hint(&near, "", hint));
         kept[i] = true;
     }
     for (uint32_t i = 0; i < s->band_count; i++) {

@@ -253,6 +253,18 @@ static void add_material(const material_sources *from, const char *name, const m
         check_material(from->reader, m, stated, stated ? stated->node : from->library_node);
 }
 
+static void fail_unknown(const material_sources *from, const char *name, const char *user)
+{
+    spelling near = spelling_of(name);
+    char hint[SPELLING_HINT_SIZE];
+
+    for (size_t i = 0; i < from->stated_count; i++) spelling_offer(&near, from->stated[i].name);
+    if (from->library) material_offer_names(from->library, &near);
+    scene_fail(from->reader, from->library_node,
+               "%s: material \"%s\" is neither in the library nor a [[material]]%s", user, name,
+               spelling_hint(&near, "", hint));
+}
+
 /* Finds a material by code, or by name where the code is -1; adds it at its first use.
  *   user   what names it, for the message */
 static uint32_t use_material(const material_sources *from, const char *name, int code,
@@ -270,9 +282,7 @@ static uint32_t use_material(const material_sources *from, const char *name, int
             scene_fail(from->reader, from->library_node,
                        "%s: material %d (%s) is not in the library", user, code, name);
         else
-            scene_fail(from->reader, from->library_node,
-                       "%s: material \"%s\" is neither in the library nor a [[material]]", user,
-                       name);
+            fail_unknown(from, name, user);
         return RECORD_NONE;
     }
     const char *own = known ? known->name : name;

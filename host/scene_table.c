@@ -1,6 +1,7 @@
 #include "scene_table.h"
 
 #include "array.h"
+#include "spelling.h"
 
 #include <assert.h>
 #include <errno.h>
@@ -189,6 +190,16 @@ static const char *with_unit(const scene_table *t, const char *key)
     return NULL;
 }
 
+static void fail_unknown(const scene_table *t, const toml_node *child)
+{
+    spelling near = spelling_of(toml_node_key(child));
+    char hint[SPELLING_HINT_SIZE];
+
+    for (int i = 0; i < t->asked_count; i++) spelling_offer(&near, t->asked[i]);
+    scene_fail(t->reader, child, "%s: unknown key%s", toml_node_name(child),
+               spelling_hint(&near, "", hint));
+}
+
 void scene_table_close(scene_table *t)
 {
     for (size_t i = 0; t->node && i < toml_node_count(t->node); i++) {
@@ -199,7 +210,7 @@ void scene_table_close(scene_table *t)
             scene_fail(t->reader, child, "%s: the unit is missing, expected the key %s",
                        toml_node_name(child), better);
         else
-            scene_fail(t->reader, child, "%s: unknown key", toml_node_name(child));
+            fail_unknown(t, child);
     }
 }
 

@@ -17,20 +17,8 @@ struct shape_factor_grid {
     uint32_t cell_count, azimuths;
 };
 
-status shape_factor_read_name(shape_factor_reading *out, const char *name)
-{
-    static const char *const names[] = {"cosine", "solid-angle", "thesis"};
-
-    for (int i = 0; i < 3; i++)
-        if (!strcmp(name, names[i])) {
-            *out = (shape_factor_reading)i;
-            return STATUS_OK;
-        }
-    return status_set(STATUS_ARGUMENT,
-                      "'%s' is no reading of the shape factor, expected cosine, "
-                      "solid-angle or thesis",
-                      name);
-}
+const char *const shape_factor_reading_names[SHAPE_FACTOR_READINGS] = {"cosine", "solid-angle",
+                                                                       "thesis"};
 
 /* Finds how many steps make up the range. */
 static status count_steps(uint32_t *out, const char *name, double step_deg, double range_deg)

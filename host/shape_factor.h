@@ -9,11 +9,12 @@
 typedef enum shape_factor_reading {
     SHAPE_FACTOR_COSINE,      /* sin(e) cos(e), as irradiance does */
     SHAPE_FACTOR_SOLID_ANGLE, /* cos(e) */
-    SHAPE_FACTOR_THESIS       /* sin(e): eq. 2.4.2-6 with theta of eq. 2.4.2-7, as printed */
+    SHAPE_FACTOR_THESIS,      /* sin(e): eq. 2.4.2-6 with theta of eq. 2.4.2-7, as printed */
+    SHAPE_FACTOR_READINGS
 } shape_factor_reading;
 
-/* Finds a reading by its name on the command line: cosine, solid-angle, thesis. */
-status shape_factor_read_name(shape_factor_reading *out, const char *name);
+/* As the command line names them. */
+extern const char *const shape_factor_reading_names[SHAPE_FACTOR_READINGS];
 
 /* Fails with STATUS_ARGUMENT unless the steps divide 90 and 360, or beyond 2^22 cells. */
 status shape_factor_check_steps(double zenith_step_deg, double azimuth_step_deg);

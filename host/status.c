@@ -1,7 +1,9 @@
 #include "status.h"
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MESSAGE_SIZE = 65536 };
@@ -69,4 +71,38 @@ const char *status_warnings(void)
 const char *status_warnings_so_far(void)
 {
     return warnings[warnings_now];
+}
+
+status_record status_record_take(status rc)
+{
+    return (status_record){.rc = rc,
+                           .message = rc == STATUS_OK ? NULL : strdup(message),
+                           .warnings = strdup(status_warnings())};
+}
+
+/* Whether a text has a line, of `length` bytes. */
+static bool has_line(const char *text, const char *line, size_t length)
+{
+    for (; *text; text += strcspn(text, "\n") + 1)
+        if (!strncmp(text, line, length) && text[length] == '\n') return true;
+    return false;
+}
+
+status status_record_tell(const status_record *record)
+{
+    size_t length;
+
+    for (const char *at = record->warnings ? record->warnings : ""; *at; at += length + 1) {
+        length = strcspn(at, "\n");
+        if (!has_line(status_warnings_so_far(), at, length)) status_warn("%.*s", (int)length, at);
+    }
+    if (record->rc == STATUS_OK) return STATUS_OK;
+    return status_set(record->rc, "%s", record->message ? record->message : "no memory");
+}
+
+void status_record_free(status_record *record)
+{
+    free(record->message);
+    free(record->warnings);
+    *record = (status_record){0};
 }

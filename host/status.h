@@ -35,6 +35,22 @@ const char *status_warnings(void);
 /* The same without forgetting them. */
 const char *status_warnings_so_far(void);
 
+/* How work ended in one thread, with its message and warnings, for another thread to tell. */
+typedef struct status_record {
+    status rc;
+    char *message, *warnings; /* NULL: none, or no memory for it */
+} status_record;
+
+/* Takes the message of a failure and the warnings of this thread, which forgets those. The caller
+ * releases it with status_record_free. */
+status_record status_record_take(status rc);
+
+/* Makes what was taken in another thread this thread's own: the warnings line by line, but for those
+ * that it has already, and the message. Returns the code. */
+status status_record_tell(const status_record *record);
+
+void status_record_free(status_record *record);
+
 /* Both need a local `status rc` and a label `out`. */
 #define NEED(condition, code, ...)                                                                 \
     do {                                                                                           \

@@ -142,9 +142,12 @@ load_tables thermal_loads(const thermal *t, uint_buffer lit)
                          .power = t->power};
 }
 
-device_shape thermal_shape(size_t facet_count)
+device_shape thermal_shape(const thermal *t, size_t facet_count)
 {
-    return (device_shape){{(facet_count + LANES - 1) / LANES, 1}, 4};
+    const double step_of_facet_s = t->layered ? 7e-7 : 5e-8;
+
+    return (device_shape){
+        {(facet_count + LANES - 1) / LANES, 1}, 4, LANES * step_of_facet_s * (double)t->step_count};
 }
 
 status thermal_upload_layered(const thermal *t, const facet_record *facet, size_t count,
@@ -170,7 +173,7 @@ static status run_layered(const thermal *t, const batch *b, thermal_span span, u
     layered_record_buffer facets = {0};
 
     TRY(thermal_upload_layered(t, b->facet, b->count, &facets));
-    TRY(layered_run(t->dev, thermal_shape(b->count),
+    TRY(layered_run(t->dev, thermal_shape(t, b->count),
                     &(layered_args){.span = span,
                                     .facets = facets,
                                     .load = thermal_loads(t, lit),
@@ -188,7 +191,7 @@ static status run_thermal(const thermal *t, const batch *b, thermal_span span, u
     facet_record_buffer facets = {0};
 
     TRY(device_allocate(t->dev, &facets, b->count, b->facet));
-    TRY(thermal_run(t->dev, thermal_shape(b->count),
+    TRY(thermal_run(t->dev, thermal_shape(t, b->count),
                     &(thermal_args){.span = span,
                                     .facets = facets,
                                     .materials = t->materials,

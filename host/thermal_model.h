@@ -24,7 +24,7 @@ struct thermal {
 load_tables thermal_loads(const thermal *t, uint_buffer lit);
 
 /* Launches of facets that go through the weather, by lanes. */
-device_shape thermal_shape(size_t facet_count);
+device_shape thermal_shape(const thermal *t, size_t facet_count);
 
 /* Puts the ladders of facets on the device. */
 status thermal_upload_layered(const thermal *t, const facet_record *facet, size_t count,

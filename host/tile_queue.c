@@ -1,8 +1,9 @@
 #include "tile_queue.h"
 
+#include "interrupt.h"
+
 #include <pthread.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Tiles that a worker can have given back at once: one for every time that it halved them. */
 enum { GIVEN_BACK = 33 };
@@ -13,6 +14,7 @@ typedef struct span {
 
 typedef struct queue {
     const tile_queue_job *job;
+    const atomic_int *token;
     pthread_mutex_t lock;
     pthread_cond_t changed;
     uint32_t next, done; /* pixels */
@@ -22,15 +24,15 @@ typedef struct queue {
     size_t failed; /* workers */
 } queue;
 
-/* A worker at work, and how it ended; messages and warnings are a thread's own. */
+/* A worker at work, and how it ended. */
 typedef struct turn {
     queue *q;
     const tile_worker *worker;
     pthread_t thread;
+    bool has_thread;
     uint32_t most;
-    status rc;
     size_t failed_as; /* 1: the first that failed */
-    char *message, *warnings;
+    status_record ending;
 } turn;
 
 /* Takes the next tile; with none left it waits for those of others, which may come back. */
@@ -40,7 +42,7 @@ static bool take(turn *t, span *out)
     bool is_taken = false;
 
     pthread_mutex_lock(&q->lock);
-    while (!*q->job->stop && !is_taken) {
+    while (!interrupt_is_set() && !is_taken) {
         const uint32_t left = q->job->pixel_count - q->next;
         is_taken = true;
         if (q->given_back_count > 0) {
@@ -100,77 +102,67 @@ static void *work(void *argument)
 {
     turn *t = argument;
 
-    t->rc = compute_all(t);
-    t->warnings = strdup(status_warnings());
-    if (t->rc == STATUS_OK) return NULL;
-    t->message = strdup(status_message());
+    interrupt_obey(t->q->token);
+    t->ending = status_record_take(compute_all(t));
+    if (t->ending.rc == STATUS_OK) return NULL;
     pthread_mutex_lock(&t->q->lock);
     t->failed_as = ++t->q->failed;
     pthread_mutex_unlock(&t->q->lock);
     return NULL;
 }
 
-/* Tells of the workers in the thread that asked: what several say alike, once. */
-static status tell(const queue *q, const turn *turns, bool *out_failed)
+/* Tells of one worker in the thread that asked. */
+static status tell(const turn *t, size_t workers)
 {
-    status rc = STATUS_OK;
-    const size_t count = q->job->worker_count;
+    status_record said = t->ending;
 
-    for (size_t i = 0; i < count; i++) {
-        const turn *t = &turns[i];
-        const char *said = t->warnings ? t->warnings : "";
-        out_failed[i] = t->rc != STATUS_OK;
-        if (*said && !strstr(status_warnings_so_far(), said))
-            status_warn("%.*s", (int)strlen(said) - 1, said);
-        if (t->failed_as == count)
-            rc = status_set(t->rc, "%s", t->message ? t->message : t->worker->name);
-        else if (t->failed_as > 0)
-            status_warn("%s failed, its tiles went to the others: %s", t->worker->name,
-                        t->message ? t->message : "no memory");
-    }
-    return rc;
+    if (t->failed_as == workers) return status_record_tell(&said);
+    said.rc = STATUS_OK;
+    status_record_tell(&said);
+    if (t->failed_as > 0)
+        status_warn("%s failed, its tiles went to the others: %s", t->worker->name,
+                    t->ending.message ? t->ending.message : "no memory");
+    return STATUS_OK;
 }
 
-static status run_threads(queue *q, bool *out_failed)
+/* Starts all workers but the first, which works here; returns how many work. */
+static size_t run_workers(turn *turns, size_t count)
 {
-    status rc = STATUS_OK;
-    const size_t count = q->job->worker_count;
-    turn *turns = calloc(count, sizeof *turns);
-    size_t started = 0;
+    size_t working = 1;
 
-    NEED(turns, STATUS_MEMORY, "no memory for %zu threads", count);
-    for (; started < count; started++) {
-        turns[started] = (turn){.q = q, .worker = &q->job->worker[started]};
-        if (pthread_create(&turns[started].thread, NULL, work, &turns[started]) != 0) break;
+    for (size_t i = 1; i < count; i++) {
+        turn *t = &turns[i];
+        t->has_thread = pthread_create(&t->thread, NULL, work, t) == 0;
+        working += t->has_thread;
+        if (!t->has_thread)
+            status_warn("%s is done without: no thread can be started", t->worker->name);
     }
-    for (size_t i = 0; i < started; i++) pthread_join(turns[i].thread, NULL);
-    NEED(started == count, STATUS_MEMORY, "%zu threads cannot be started", count);
-    rc = tell(q, turns, out_failed);
-out:
-    for (size_t i = 0; i < started; i++) {
-        free(turns[i].message);
-        free(turns[i].warnings);
-    }
-    free(turns);
-    return rc;
+    work(&turns[0]);
+    for (size_t i = 1; i < count; i++)
+        if (turns[i].has_thread) pthread_join(turns[i].thread, NULL);
+    return working;
 }
 
 status tile_queue_run(const tile_queue_job *job, bool *out_failed)
 {
     status rc = STATUS_OK;
-    queue q = {.job = job, .lock = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
+    const size_t count = job->worker_count;
+    queue q = {.job = job,
+               .token = interrupt_token(),
+               .lock = PTHREAD_MUTEX_INITIALIZER,
+               .changed = PTHREAD_COND_INITIALIZER};
+    turn *turns = calloc(count, sizeof *turns);
 
-    q.given_back = calloc(GIVEN_BACK * job->worker_count, sizeof *q.given_back);
-    NEED(q.given_back, STATUS_MEMORY, "no memory for the list of tiles");
-    if (job->worker_count == 1) {
-        turn alone = {.q = &q, .worker = job->worker};
-        rc = compute_all(&alone);
-        out_failed[0] = rc != STATUS_OK;
-    } else {
-        rc = run_threads(&q, out_failed);
-    }
-    if (rc == STATUS_OK && *job->stop) rc = status_set(STATUS_INTERRUPTED, "interrupted");
+    q.given_back = calloc(GIVEN_BACK * count, sizeof *q.given_back);
+    NEED(turns && q.given_back, STATUS_MEMORY, "no memory for the list of tiles");
+    for (size_t i = 0; i < count; i++) turns[i] = (turn){.q = &q, .worker = &job->worker[i]};
+    const size_t working = run_workers(turns, count);
+    TRY(interrupt_check());
+    for (size_t i = 0; i < count; i++) out_failed[i] = turns[i].failed_as > 0;
+    for (size_t i = 0; i < count; i++) TRY(tell(&turns[i], working));
 out:
+    for (size_t i = 0; turns && i < count; i++) status_record_free(&turns[i].ending);
+    free(turns);
     free(q.given_back);
     pthread_cond_destroy(&q.changed);
     pthread_mutex_destroy(&q.lock);

@@ -4,7 +4,6 @@
 
 #include "status.h"
 
-#include <signal.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -26,12 +25,12 @@ typedef struct tile_queue_job {
     /* Told after every tile how many pixels are done, by one thread at a time. */
     void (*on_progress)(void *listener, uint32_t done);
     void *listener;
-    const volatile sig_atomic_t *stop; /* ends the work with STATUS_INTERRUPTED when it is set */
 } tile_queue_job;
 
-/* Computes all pixels. A worker that fails gives its tile to the others, with a warning, and gets no
- * more; where it is the last one its failure is returned. Warnings of the workers become those of
- * the calling thread.
+/* Computes all pixels, the first worker in the calling thread. A worker that fails gives its tile to the
+ * others, with a warning, and gets no more; where it is the last one its failure is returned. One for
+ * which no thread can be started is done without, with a warning. Warnings of the workers become those of
+ * the calling thread. The threads obey its interrupt, which ends the work with STATUS_INTERRUPTED.
  *   out_failed   shape (worker_count): whether a worker failed */
 status tile_queue_run(const tile_queue_job *job, bool *out_failed);
 

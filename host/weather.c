@@ -1,6 +1,7 @@
 #include "weather.h"
 
 #include "constants.h"
+#include "file_name.h"
 #include "output_file.h"
 #include "record_file.h"
 #include "weather_table.h"
@@ -212,13 +213,12 @@ out:
 status weather_read(weather **out, const char *path)
 {
     status rc = STATUS_OK;
-    const size_t length = strlen(path);
     record_file *file = NULL;
     weather *w = NULL;
     size_t count;
     double interval_s;
 
-    if (length > 4 && !strcmp(path + length - 4, ".csv")) return read_table(out, path);
+    if (file_name_ends(path, ".csv")) return read_table(out, path);
     TRY(record_file_open(&file, path));
     TRY(read_heading(file, &count, &interval_s));
     TRY(weather_allocate(&w, count, interval_s));

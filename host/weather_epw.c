@@ -1,5 +1,7 @@
 #include "weather_epw.h"
 
+#include "number.h"
+
 #include "constants.h"
 #include "record_file.h"
 #include "weather_series.h"
@@ -59,11 +61,7 @@ static int split(char *line, int limit, char **out)
 
 static bool take_number(const char *text, double *out)
 {
-    char *end;
-
-    *out = strtod(text, &end);
-    while (*end == ' ') end++;
-    return end != text && *end == '\0' && isfinite(*out);
+    return number_read_list(text, 1, out);
 }
 
 static status take_line(epw *e, char line[2048], const char *expected)

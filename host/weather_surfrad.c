@@ -1,6 +1,7 @@
 #include "weather_surfrad.h"
 
 #include "constants.h"
+#include "number.h"
 #include "record_file.h"
 #include "weather_series.h"
 
@@ -42,16 +43,19 @@ static status read_heading(surfrad *s)
 {
     status rc = STATUS_OK;
     static const char expected[] = "latitude, longitude and elevation of the station";
-    double latitude_deg, longitude_deg, elevation_m;
+    double where[3]; /* latitude, longitude, elevation */
     const char *text;
 
     TRY(record_file_text(s->file, &text, "a station's name"));
     snprintf(s->series.name, sizeof s->series.name, "%s", text);
     TRY(record_file_text(s->file, &text, expected));
-    if (sscanf(text, "%lf %lf %lf", &latitude_deg, &longitude_deg, &elevation_m) != 3 ||
-        !(fabs(latitude_deg) <= 90.0) || !(fabs(longitude_deg) <= 180.0))
+    const char *end = text;
+    for (int i = 0; end && i < 3; i++) end = number_take(end + strspn(end, " \t"), &where[i]);
+    if (!end || (*end && !isspace((unsigned char)*end)) || fabs(where[0]) > 90.0 ||
+        fabs(where[1]) > 180.0)
         TRY(record_file_reject(s->file, "%s", expected));
-    longitude_deg = -fabs(longitude_deg); /* all stations are in America */
+    const double latitude_deg = where[0];
+    const double longitude_deg = -fabs(where[1]); /* all stations are in America */
     if (s->series.count > 0 &&
         (latitude_deg != s->series.latitude_deg || longitude_deg != s->series.longitude_deg))
         TRY(record_file_reject(s->file, "the station of the days before"));

@@ -83,11 +83,13 @@ static void open_step(const patch_run *p, uint first, uint step)
                                            w.span.step_s / (float)thermal_sub_steps(w.span.step_s));
 }
 
-/* Goes through the step that ends at `step`; out_w_m2 as conduction.cl has it. */
-static void go(const patch_run *p, uint step, global float *out_w_m2)
+/* Goes through the step that ends at `step`; out_w_m2 as conduction.cl has it. Returns its work, as
+ * conduction_solve does. */
+static uint go(const patch_run *p, uint step, global float *out_w_m2)
 {
     const thermal_span span = p->world.span;
     const int count = thermal_sub_steps(span.step_s);
+    uint work = 0;
 
     for (uint first = p->first; first < p->end; first += LANES_WIDTH) open_step(p, first, step);
     for (int i = 0; i < count; i++) {
@@ -95,7 +97,7 @@ static void go(const patch_run *p, uint step, global float *out_w_m2)
         const sub_step s = {layered_air_of(p->world.loads.forcing[late ? step : step - 1]),
                             (float)(i + 1) / (float)count, span.step_s / (float)count, i, count};
         for (uint first = p->first; first < p->end; first += LANES_WIDTH) go_alone(p, first, &s);
-        conduction_solve(p->links, p->rows, p->first, p->end);
+        work += conduction_solve(p->links, p->rows, p->first, p->end);
         for (uint first = p->first; first < p->end; first += LANES_WIDTH) {
             go_together(p, first, &s);
             if (2 * (i + 1) % count == 0)
@@ -104,6 +106,7 @@ static void go(const patch_run *p, uint step, global float *out_w_m2)
                             p->end);
         }
     }
+    return work;
 }
 
 /* Each facet's own start. */
@@ -119,53 +122,72 @@ static void begin(const patch_run *p)
     }
 }
 
-/* The first day over and over until no node moves. */
-static void go_through_days(const patch_run *p, uint day, global float *out_w_m2)
+/* Keeps the state in which the first day begins. */
+static void begin_day(const patch_run *p)
 {
-    bool moves = true;
+    for (uint first = p->first; first < p->end; first += LANES_WIDTH)
+        p->groups[first / LANES_WIDTH].day_before = p->groups[first / LANES_WIDTH].state;
+}
 
-    for (int i = 0; i < LAYERED_DAYS && moves; i++) {
-        for (uint first = p->first; first < p->end; first += LANES_WIDTH)
-            p->groups[first / LANES_WIDTH].day_before = p->groups[first / LANES_WIDTH].state;
-        for (uint step = 1; step <= day; step++) go(p, step, out_w_m2);
-        moves = false;
-        for (uint first = p->first; first < p->end; first += LANES_WIDTH) {
-            const layered_state now = p->groups[first / LANES_WIDTH].state;
-            const layered_state before = p->groups[first / LANES_WIDTH].day_before;
-            moves |= lanes_any(layered_difference(&now, &before) > (lanes)LAYERED_SETTLED_K);
-        }
+/* Whether a node has moved over the first day. */
+static bool has_moved(const patch_run *p)
+{
+    bool moves = false;
+
+    for (uint first = p->first; first < p->end; first += LANES_WIDTH) {
+        const layered_state now = p->groups[first / LANES_WIDTH].state;
+        const layered_state before = p->groups[first / LANES_WIDTH].day_before;
+        moves |= lanes_any(layered_difference(&now, &before) > (lanes)LAYERED_SETTLED_K);
     }
+    return moves;
+}
+
+/* Goes one step further: through the first day over and over until no node moves, then on. Returns the
+ * work of it. */
+static uint go_on(const patch_run *p, conduction_progress *at, global float *out_w_m2)
+{
+    const thermal_span span = p->world.span;
+    const uint day = layered_steps_a_day(span);
+
+    if (at->days == 0) begin(p);
+    if (at->days == 0) at->is_settled = span.step_count <= day;
+    if (!at->is_settled && at->step == 0) begin_day(p);
+    if (at->step == 0) at->days++;
+    at->is_done = at->is_settled && at->step + 1 >= span.step_count;
+    if (at->is_done) return 0;
+    const uint work = go(p, ++at->step, out_w_m2);
+    if (at->is_settled || at->step < day) return work;
+    at->is_settled = at->days == LAYERED_DAYS || !has_moved(p);
+    if (!at->is_settled) at->step = 0;
+    return work;
 }
 
 /* A patch a work-item, through the weather.
  * Launch: (patch_count). Arrays of facets have span.facet_count of them, patch after patch, each
  * patch filled up to a multiple of 16 with facets without neighbours. patch_first: (patch_count + 1);
- * facets, loads, exchange: as in layered.cl, but nothing is lateral yet; links: neighbours as places in these arrays;
- * groups: (facet_count / LANES_WIDTH), numbers: (9, facet_count), both to work with;
- * out_w_m2: (2 steps, facet_count), lateral_w_m2 of layered_history.h. */
+ * facets, loads, exchange: as in layered.cl, but nothing is lateral yet; launched again until all patches
+ * are done; out_w_m2: (2 steps, facet_count), lateral_w_m2 of layered_history.h. */
 kernel void conduction(const thermal_span span, const uint patch_count,
-                       global const uint *patch_first, global const layered_record *facets,
-                       global const conduction_record *links, TABLES(LOAD_TABLES),
-                       TABLES(EXCHANGE_TABLES), global conduction_group *groups,
-                       global float *numbers, global float *out_w_m2)
+                       global const layered_record *facets, TABLES(LOAD_TABLES),
+                       TABLES(EXCHANGE_TABLES), TABLES(PATCH_TABLES), global float *out_w_m2)
 {
     const uint patch = get_global_id(0);
     const size_t n = span.facet_count;
     if (patch >= patch_count) return;
 
+    const patch_tables t = TABLES_GIVEN(PATCH_TABLES);
+    global float *row = t.numbers;
     const patch_run p = {.world = {.span = span,
                                    .loads = TABLES_GIVEN(LOAD_TABLES),
                                    .exchange = TABLES_GIVEN(EXCHANGE_TABLES)},
-                         .first = patch_first[patch],
-                         .end = patch_first[patch + 1],
+                         .first = t.patch_first[patch],
+                         .end = t.patch_first[patch + 1],
                          .facets = facets,
-                         .links = links,
-                         .groups = groups,
-                         .rows = {numbers, numbers + n, numbers + 2 * n, numbers + 3 * n,
-                                  numbers + 4 * n, numbers + 5 * n, numbers + 6 * n,
-                                  numbers + 7 * n, numbers + 8 * n}};
-    const uint day = layered_steps_a_day(span), settled = span.step_count > day ? day : 0;
-    begin(&p);
-    if (settled > 0) go_through_days(&p, day, out_w_m2);
-    for (uint step = settled + 1; step < span.step_count; step++) go(&p, step, out_w_m2);
+                         .links = t.links,
+                         .groups = t.groups,
+                         .rows = {row, row + n, row + 2 * n, row + 3 * n, row + 4 * n, row + 5 * n,
+                                  row + 6 * n, row + 7 * n, row + 8 * n}};
+    conduction_progress at = t.progress[patch];
+    for (uint work = 0; !at.is_done && work < CONDUCTION_WORK;) work += go_on(&p, &at, out_w_m2);
+    t.progress[patch] = at;
 }

@@ -17,11 +17,35 @@ typedef struct conduction_group {
     lanes sum_w_m2;                  /* of what came along the facet, over sub-steps */
 } conduction_group;
 
+/* How far a patch has come, for the next launch to go on from; all 0 at first. */
+typedef struct conduction_progress {
+    uint days;       /* times that the first day was begun; 0: nothing was */
+    uint step;       /* the last that was gone through */
+    uint is_settled; /* no node moves over the first day any more */
+    uint is_done;
+} conduction_progress;
+
+/* Patches of facets, and what they work with.
+ *   patch_first   shape (patch_count + 1): where the facets of each begin
+ *   links         shape (facets): neighbours as places in these arrays
+ *   groups        shape (facets / LANES_WIDTH); numbers: (9, facets); progress: (patch_count) */
+#define PATCH_TABLES(TABLE, AND)                                                                   \
+    TABLE(global const uint *, patch_first)                                                        \
+    AND TABLE(global const conduction_record *, links)                                             \
+    AND TABLE(global conduction_group *, groups)                                                   \
+    AND TABLE(global float *, numbers)                                                             \
+    AND TABLE(global conduction_progress *, progress)
+
 #ifdef __OPENCL_C_VERSION__
+
+TABLES_STRUCT(patch_tables, PATCH_TABLES);
 
 #define CONDUCTION_TOLERANCE_K                                                                     \
     1e-5f /* rms, of what is left over and over all that a facet conducts */
 #define CONDUCTION_ITERATIONS 1000
+
+/* A launch ends after the step in which a patch has had so many facets times iterations, some 0.1 s. */
+#define CONDUCTION_WORK 5000000u
 
 /* A patch's rows of numbers, one for each facet. */
 typedef struct conduction_rows {
@@ -86,20 +110,22 @@ static inline float conduction_set_up(global const conduction_record *links, con
     return CONDUCTION_TOLERANCE_K * CONDUCTION_TOLERANCE_K * all;
 }
 
-/* Solves for the rises of facets first .. end - 1, in one order whatever else runs. */
-static inline void conduction_solve(global const conduction_record *links, conduction_rows r,
+/* Solves for the rises of facets first .. end - 1, in one order whatever else runs. Returns the facets that
+ * were gone through, times iterations. */
+static inline uint conduction_solve(global const conduction_record *links, conduction_rows r,
                                     uint first, uint end)
 {
     const float limit = conduction_set_up(links, r, first, end);
     conduction_left left = conduction_left_of(r, first, end);
+    uint step = 0;
 
-    for (int step = 0; step < CONDUCTION_ITERATIONS && left.by_own > limit; step++) {
+    for (; step < CONDUCTION_ITERATIONS && left.by_own > limit; step++) {
         float along = 0.0f;
         for (uint i = first; i < end; i++) {
             r.product_w[i] = conduction_product(links, r, r.way_k, i);
             along += r.way_k[i] * r.product_w[i];
         }
-        if (!(along > 0.0f)) return;
+        if (!(along > 0.0f)) break;
         const float length = left.by_diagonal / along;
         for (uint i = first; i < end; i++) {
             r.rise_k[i] += length * r.way_k[i];
@@ -111,6 +137,7 @@ static inline void conduction_solve(global const conduction_record *links, condu
             r.way_k[i] = r.left_w[i] / r.diagonal_w_k[i] + turn * r.way_k[i];
         left = next;
     }
+    return (step + 1) * (end - first);
 }
 
 #endif

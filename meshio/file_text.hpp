@@ -4,7 +4,7 @@
 
 #include <string>
 
-/* Throws failure `path: ...`: no such file, a folder, unreadable, 4 GiB or larger. */
+/* Throws failure `path: ...`: input_file_open fails, or it cannot be read. */
 std::string file_text_load(const std::string &path);
 
 #endif

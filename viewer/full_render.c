@@ -1,5 +1,6 @@
 #include "full_render.h"
 
+#include "interrupt.h"
 #include "render_output.h"
 
 #include <pthread.h>
@@ -17,7 +18,7 @@ struct full_render {
     size_t setting_count;
     bool has_camera;
     view camera;
-    volatile sig_atomic_t stop, percent;
+    atomic_int stop, percent;
     atomic_bool ended;
     status result;
     char message[512];
@@ -28,10 +29,8 @@ static status run(full_render *full)
     status rc = STATUS_OK;
     scene *s = NULL;
     device *dev = NULL;
-    const render_output_options options = {.scene_path = full->path,
-                                           .folder = full->folder,
-                                           .stop = &full->stop,
-                                           .percent = &full->percent};
+    const render_output_options options = {
+        .scene_path = full->path, .folder = full->folder, .percent = &full->percent};
 
     TRY(scene_read(&s, full->path, (const char *const *)full->setting, full->setting_count));
     if (full->has_camera) {
@@ -53,6 +52,7 @@ static void *work(void *argument)
 {
     full_render *full = argument;
 
+    interrupt_obey(&full->stop);
     full->result = run(full);
     if (full->result != STATUS_OK)
         snprintf(full->message, sizeof full->message, "%s", status_message());
@@ -105,7 +105,7 @@ bool full_render_is_running(const full_render *full)
 
 int full_render_percent(const full_render *full)
 {
-    return (int)full->percent;
+    return full->percent;
 }
 
 const char *full_render_folder(const full_render *full)

@@ -3,113 +3,69 @@
 #include "clock.h"
 #include "control.h"
 #include "errand.h"
+#include "file_name.h"
+#include "number.h"
 #include "offscreen.h"
+#include "option_table.h"
 #include "picture.h"
+#include "program.h"
 #include "saving.h"
 #include "script.h"
 #include "window.h"
 
-#include <getopt.h>
-#include <string.h>
+static const char command[] = "radsig view";
 
-enum { EXIT_USAGE = 2 };
-
-static const char help[] =
-    "usage: radsig view SCENE [OPTION ...]\n"
-    "\n"
+static const char purpose[] =
     "Shows the radiance of a scene in a window: coarse while something moves, then exactly as\n"
-    "radsig render writes it. h lists the keys; docs/preview.md tells more.\n"
-    "\n"
-    "  --offscreen FILE       no window: write the page (FILE.png) or the radiance (FILE.img)\n"
-    "  --size WxH             pixels of the picture: columns x rows\n"
-    "  --plane NAME           the plane to show first, as temperature_c\n"
-    "  --script FILE          do what the file says, then quit; - is the standard input\n"
-    "  --bench                measure how fast it is, then quit\n";
+    "radsig render writes it. h lists the keys; docs/preview.md tells more.\n";
+
+enum { SIZE_LIMIT = 16384 };
 
 typedef struct arguments {
-    const char *scene_path, *offscreen, *plane, *script;
-    int columns, rows; /* 0: the scene's */
+    const char *offscreen, *plane, *script;
+    uint32_t columns, rows; /* 0: the scene's */
     bool is_bench;
 } arguments;
 
-static int misuse(const char *what, const char *detail)
+static status read_size(const option *o, const char *text)
 {
-    fprintf(stderr, "radsig view: %s%s%s (radsig view --help)\n", what, *detail ? " " : "", detail);
-    return EXIT_USAGE;
+    status rc = STATUS_OK;
+    arguments *a = o->out;
+
+    NEED(number_read_size(text, &a->columns, &a->rows) && a->columns > 0 && a->rows > 0 &&
+             a->columns <= SIZE_LIMIT && a->rows <= SIZE_LIMIT,
+         STATUS_ARGUMENT, "found '%s', expected COLUMNSxROWS, each from 1 to %d", text, SIZE_LIMIT);
+out:
+    return rc;
 }
 
-static void print_lines(const char *label, const char *text)
+static status read_offscreen(const option *o, const char *text)
 {
-    while (*text) {
-        const size_t length = strcspn(text, "\n");
-        if (length) fprintf(stderr, "radsig view: %s%.*s\n", label, (int)length, text);
-        text += length + (text[length] == '\n');
-    }
+    status rc = STATUS_OK;
+
+    NEED(file_name_ends(text, ".png") || file_name_ends(text, ".img"), STATUS_ARGUMENT,
+         "found '%s', expected FILE.png or FILE.img", text);
+    *(const char **)o->out = text;
+out:
+    return rc;
 }
 
-static bool ends_in(const char *text, const char *end)
+static int read_arguments(arguments *a, int argc, char **argv)
 {
-    const size_t length = strlen(text), end_length = strlen(end);
+    option list[] = {
+        {"offscreen", 0, "FILE", "no window: write the page (FILE.png) or the radiance (FILE.img)",
+         .out = &a->offscreen, .read = read_offscreen},
+        {"size", 0, "WxH", "pixels of the picture: columns x rows", .out = a, .read = read_size},
+        {"plane", 0, "NAME", "the plane to show first, as temperature_c", .text = &a->plane},
+        {"script", 0, "FILE", "do what the file says, then quit; - is the standard input",
+         .text = &a->script},
+        {"bench", 0, NULL, "measure how fast it is, then quit", .flag = &a->is_bench}};
+    const option_table table = {command, "SCENE", 1, 1, purpose, list, sizeof list / sizeof *list};
+    const int code = option_table_read(&table, argc, argv, NULL);
 
-    return length > end_length && !strcmp(text + length - end_length, end);
-}
-
-static bool take_size(arguments *a, const char *text)
-{
-    char end;
-
-    return sscanf(text, "%dx%d%c", &a->columns, &a->rows, &end) == 2 && a->columns > 0 &&
-           a->rows > 0 && a->columns <= 16384 && a->rows <= 16384;
-}
-
-/* Takes one option; false where its value is none. */
-static bool take_option(arguments *a, int option, const char *value)
-{
-    switch (option) {
-    case 'o':
-        a->offscreen = value;
-        return ends_in(value, ".png") || ends_in(value, ".img");
-    case 's':
-        return take_size(a, value);
-    case 'p':
-        a->plane = value;
-        return *value != '\0';
-    case 'c':
-        a->script = value;
-        return *value != '\0';
-    default:
-        a->is_bench = true;
-        return true;
-    }
-}
-
-/* Returns -1 to go on, or the exit code. */
-static int take_arguments(arguments *a, int argc, char **argv)
-{
-    static const struct option options[] = {{"offscreen", required_argument, NULL, 'o'},
-                                            {"size", required_argument, NULL, 's'},
-                                            {"plane", required_argument, NULL, 'p'},
-                                            {"script", required_argument, NULL, 'c'},
-                                            {"bench", no_argument, NULL, 'b'},
-                                            {"help", no_argument, NULL, 'h'},
-                                            {NULL, 0, NULL, 0}};
-    int option;
-
-    opterr = 0;
-    while ((option = getopt_long(argc, argv, ":", options, NULL)) != -1) {
-        if (option == 'h') {
-            fputs(help, stdout);
-            return 0;
-        }
-        if (option == '?') return misuse("unknown option", argv[optind - 1]);
-        if (option == ':') return misuse("a value is missing behind", argv[optind - 1]);
-        if (!take_option(a, option, optarg)) return misuse("no value for its option:", optarg);
-    }
-    if (optind + 1 != argc)
-        return misuse(argc > optind ? "one scene at a time" : "needs a scene", "");
-    if (a->script && a->is_bench) return misuse("either --script or --bench", "");
-    a->scene_path = argv[optind];
-    return -1;
+    if (code == OPTION_TABLE_DONE && a->script && a->is_bench)
+        return program_misuse(command, "--script and --bench exclude each other");
+    return code;
 }
 
 /* Does what the person in front of the window asks for until the window is closed. */
@@ -135,7 +91,7 @@ static status write_result(preview *p, const char *path)
 
     TRY(preview_rest(p));
     NEED(!p->state.error[0], STATUS_FORMAT, "%s", p->state.error);
-    if (ends_in(path, ".img"))
+    if (file_name_ends(path, ".img"))
         TRY(saving_write_image(p, path));
     else
         TRY(saving_write_page(p, path));
@@ -161,19 +117,19 @@ static status prepare_pictures(void *self)
     return picture_prepare();
 }
 
-static status run(const arguments *a, double start_s)
+static status run(const arguments *a, const char *scene_path, double start_s)
 {
     status rc = STATUS_OK;
-    opening o = {.scene_path = a->scene_path};
+    opening o = {.scene_path = scene_path};
     const errand list[] = {{read_scene, &o}, {prepare_pictures, NULL}};
     surface *s = NULL;
     preview *p = NULL;
     int width, height;
 
     TRY(errand_run(list, sizeof list / sizeof *list));
-    print_lines("warning: ", status_warnings());
-    const int columns = a->columns ? a->columns : o.of->s->camera.columns;
-    const int rows = a->columns ? a->rows : o.of->s->camera.rows;
+    program_warn(command);
+    const int columns = a->columns ? (int)a->columns : o.of->s->camera.columns;
+    const int rows = a->columns ? (int)a->rows : o.of->s->camera.rows;
     preview_page_size(columns, rows, 1.0, &width, &height);
     if (a->offscreen)
         TRY(offscreen_open(&s, width, height));
@@ -198,12 +154,7 @@ int main(int argc, char **argv)
 {
     arguments a = {0};
     const double start_s = clock_now_s();
-    int code;
+    const int code = read_arguments(&a, argc, argv);
 
-    code = take_arguments(&a, argc, argv);
-    if (code >= 0) return code;
-    if (run(&a, start_s) == STATUS_OK) return 0;
-    print_lines("warning: ", status_warnings());
-    print_lines("", status_message());
-    return 1;
+    return code == OPTION_TABLE_DONE ? program_end(command, run(&a, argv[1], start_s)) : code;
 }

@@ -12,19 +12,20 @@
 /* How long a step of preview_rest waits. */
 static const double pause_s = 0.005;
 
-static bool is_known(const shared_scene *of, const char *plane)
+static status check_plane(const shared_scene *of, const char *plane)
 {
+    status rc = STATUS_OK;
     static const double no_wavelengths[4096];
     render_plane *planes = NULL;
     size_t count = 0;
-    bool known = false;
 
-    if (of->s->band_count > 4096 ||
-        render_plane_list(&planes, &count, of->s, no_wavelengths, no_wavelengths) != STATUS_OK)
-        return false;
-    for (size_t i = 0; i < count; i++) known |= !strcmp(planes[i].name, plane);
+    NEED(of->s->band_count <= 4096, STATUS_ARGUMENT, "%u bands, expected up to 4096 to preview",
+         of->s->band_count);
+    TRY(render_plane_list(&planes, &count, of->s, no_wavelengths, no_wavelengths));
+    TRY(render_plane_check(planes, count, plane));
+out:
     free(planes);
-    return known;
+    return rc;
 }
 
 status preview_open(preview **out, surface *s, shared_scene *of, int columns, int rows,
@@ -35,8 +36,7 @@ status preview_open(preview **out, surface *s, shared_scene *of, int columns, in
     preview *p = calloc(1, sizeof *p);
 
     NEED(p, STATUS_MEMORY, "no memory for a preview");
-    NEED(!plane || is_known(of, plane), STATUS_ARGUMENT, "there is no plane '%s' in this scene",
-         plane);
+    if (plane) TRY(check_plane(of, plane));
     if (plane) snprintf(p->plane_name, sizeof p->plane_name, "%s", plane);
     p->s = s;
     p->picks = picks;

@@ -2,13 +2,14 @@
 
 #include "clock.h"
 #include "control.h"
+#include "input_file.h"
+#include "number.h"
 #include "page.h"
 #include "saving.h"
 
-#include <errno.h>
 #include <string.h>
 
-enum { LINE_SIZE = 1024, DRAG_STEPS = 10 };
+enum { LINE_SIZE = 1024, DRAG_STEPS = 10, WORDS = 4, PIXEL_LIMIT = 16384 };
 
 static status draw(preview *p)
 {
@@ -117,33 +118,69 @@ out:
     return rc;
 }
 
+/* The words of a line; of more than there is room for, one more is counted. */
+typedef struct words {
+    char text[LINE_SIZE];
+    char *word[WORDS];
+    int count;
+} words;
+
+static void split(words *out, const char *line)
+{
+    char *at = strcpy(out->text, line);
+
+    out->count = 0;
+    for (at += strspn(at, " \t"); *at && out->count < WORDS; at += strspn(at, " \t")) {
+        out->word[out->count++] = at;
+        at += strcspn(at, " \t");
+        if (*at) *at++ = '\0';
+    }
+    if (*at) out->count++;
+}
+
+/* Whether the line is `name` with so many words behind it. */
+static bool is_line(const words *w, const char *name, int count)
+{
+    return w->count == 1 + count && !strcmp(w->word[0], name);
+}
+
+static bool read_pixel(const words *w, int low, int out[2])
+{
+    int64_t value[2];
+
+    for (int i = 0; i < 2; i++) {
+        if (!number_read_whole(w->word[i + 1], low, PIXEL_LIMIT, &value[i])) return false;
+        out[i] = (int)value[i];
+    }
+    return true;
+}
+
 /* Lines about the pointer and the keyboard; `*is_done` tells whether this was one. */
-static status do_input(preview *p, const char *line, bool *is_done)
+static status do_input(preview *p, const words *w, bool *is_done)
 {
     status rc = STATUS_OK;
-    char word[64];
-    int column, row;
+    int at[2];
     double dx, dy;
     event e;
     event_button button;
 
     *is_done = true;
-    if (sscanf(line, "key %63s", word) == 1 && read_key(word, &e)) {
+    if (is_line(w, "key", 1) && read_key(w->word[1], &e)) {
         control_take(p, &e);
-    } else if (sscanf(line, "point %d %d", &column, &row) == 2) {
-        point(p, column, row);
-    } else if (sscanf(line, "press %63s", word) == 1 && read_button(word, &button)) {
+    } else if (is_line(w, "point", 2) && read_pixel(w, -PIXEL_LIMIT, at)) {
+        point(p, at[0], at[1]);
+    } else if (is_line(w, "press", 1) && read_button(w->word[1], &button)) {
         press(p, EVENT_PRESS, button);
-    } else if (sscanf(line, "release %63s", word) == 1 && read_button(word, &button)) {
+    } else if (is_line(w, "release", 1) && read_button(w->word[1], &button)) {
         press(p, EVENT_RELEASE, button);
-    } else if (sscanf(line, "click %d %d", &column, &row) == 2) {
-        point(p, column, row);
+    } else if (is_line(w, "click", 2) && read_pixel(w, -PIXEL_LIMIT, at)) {
+        point(p, at[0], at[1]);
         press(p, EVENT_PRESS, EVENT_BUTTON_LEFT);
         press(p, EVENT_RELEASE, EVENT_BUTTON_LEFT);
-    } else if (sscanf(line, "drag %63s %lf %lf", word, &dx, &dy) == 3 &&
-               read_button(word, &button)) {
+    } else if (is_line(w, "drag", 3) && read_button(w->word[1], &button) &&
+               number_read(w->word[2], &dx) && number_read(w->word[3], &dy)) {
         TRY(drag(p, button, dx, dy));
-    } else if (sscanf(line, "scroll %lf", &dy) == 1) {
+    } else if (is_line(w, "scroll", 1) && number_read(w->word[1], &dy)) {
         e = (event){.kind = EVENT_SCROLL, .amount = dy};
         control_take(p, &e);
     } else {
@@ -153,30 +190,42 @@ out:
     return rc;
 }
 
+/* The rest of a line behind a word and a blank; NULL if it begins otherwise. */
+static const char *rest_of(const char *line, const char *word)
+{
+    const size_t length = strlen(word);
+
+    if (strncmp(line, word, length) != 0 || line[length] != ' ') return NULL;
+    line += length + strspn(line + length, " ");
+    return *line ? line : NULL;
+}
+
 static status do_line(preview *p, const char *line, bool *is_done)
 {
     status rc = STATUS_OK;
-    char path[LINE_SIZE];
-    int width, height;
+    words w;
+    const char *page_path = rest_of(line, "page"), *image_path = rest_of(line, "image");
+    int size[2];
     double wait_s;
 
-    TRY(do_input(p, line, is_done));
+    split(&w, line);
+    TRY(do_input(p, &w, is_done));
     if (*is_done) goto out;
     *is_done = true;
-    if (!strcmp(line, "wait")) {
+    if (is_line(&w, "wait", 0)) {
         TRY(preview_rest(p));
-    } else if (!strcmp(line, "error")) {
+    } else if (is_line(&w, "error", 0)) {
         fprintf(p->picks, "%s\n", p->state.error);
         fflush(p->picks);
-    } else if (sscanf(line, "pause %lf", &wait_s) == 1) {
+    } else if (is_line(&w, "pause", 1) && number_read(w.word[1], &wait_s)) {
         TRY(pause_for(p, wait_s));
-    } else if (sscanf(line, "size %d %d", &width, &height) == 2 && width > 0 && height > 0) {
-        TRY(set_size(p, width, height));
-    } else if (sscanf(line, "page %1023[^\n]", path) == 1) {
+    } else if (is_line(&w, "size", 2) && read_pixel(&w, 1, size)) {
+        TRY(set_size(p, size[0], size[1]));
+    } else if (page_path) {
         TRY(draw(p));
-        TRY(saving_write_page(p, path));
-    } else if (sscanf(line, "image %1023[^\n]", path) == 1) {
-        TRY(saving_write_image(p, path));
+        TRY(saving_write_page(p, page_path));
+    } else if (image_path) {
+        TRY(saving_write_image(p, image_path));
     } else {
         *is_done = false;
     }
@@ -187,11 +236,13 @@ out:
 status script_run(preview *p, const char *path)
 {
     status rc = STATUS_OK;
-    char line[LINE_SIZE];
-    FILE *file = strcmp(path, "-") ? fopen(path, "r") : stdin;
+    char line[LINE_SIZE], message[1024];
+    FILE *file = stdin;
     bool is_done = true;
 
-    NEED(file, STATUS_FILE, "%s: %s", path, strerror(errno));
+    if (strcmp(path, "-"))
+        NEED(!input_file_open(&file, NULL, path, INPUT_FILE_TEXT_LIMIT, message, sizeof message),
+             STATUS_FILE, "%s", message);
     for (int number = 1; !p->quits && fgets(line, sizeof line, file); number++) {
         line[strcspn(line, "\r\n")] = '\0';
         if (*line && *line != '#') TRY(do_line(p, line, &is_done));
@@ -201,6 +252,6 @@ status script_run(preview *p, const char *path)
         TRY(draw(p));
     }
 out:
-    if (file && file != stdin) fclose(file);
+    if (file != stdin) fclose(file);
     return rc;
 }

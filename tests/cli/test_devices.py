@@ -147,7 +147,7 @@ def test_a_device_that_fails_leaves_its_tiles_to_the_other_with_a_warning(progra
     scene = program.write_scene(tmp_path)
     bad, good = oclgrind_and_pocl(program, with_oclgrind)
     numbers = f"{bad},{good}" if is_first else f"{good},{bad}"
-    options = ("--size", "160x160", "--mode", "thesis")
+    options = ("--size", "640x640", "--mode", "thesis")  # so many tiles that the bad one gets some
 
     alone = render_on(program, scene, tmp_path / "alone", good, with_oclgrind, *options)
     both = render_on(program, scene, tmp_path / "both_devices", numbers, with_oclgrind, *options)

@@ -135,4 +135,4 @@ def test_a_probe_that_is_no_pixel_is_refused(program, tmp_path, at):
     done = program.run("render", program.write_scene(tmp_path), "-o", tmp_path / "out",
                        "--probe", at)
 
-    assert done.returncode == 2 and f"'{at}' is no value for --probe" in done.stderr
+    assert done.returncode == 2 and f"--probe: found '{at}', expected COLUMN,ROW" in done.stderr

@@ -153,10 +153,10 @@ def test_objects_without_their_header_are_refused(program, june, tmp_path):
 
 
 @pytest.mark.parametrize("options, text", [
-    (["--thickness-cm", "2", "--runs", "0"], "--runs '0'"),
-    (["--thickness-cm", "2", "--seed", "1.5"], "--seed '1.5'"),
+    (["--thickness-cm", "2", "--runs", "0"], "--runs: found '0'"),
+    (["--thickness-cm", "2", "--seed", "1.5"], "--seed: found '1.5'"),
     ([], "needs --thickness-cm"),
-    (["--objects", "x.csv", "--slope", "3"], "--objects says what a facet's options say"),
+    (["--objects", "x.csv", "--slope", "3"], "--objects says what --slope says"),
 ])
 def test_wrong_options_of_a_study_exit_2(program, june, options, text):
     done = study(program, june, *options)

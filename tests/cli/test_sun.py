@@ -46,17 +46,17 @@ def test_steps_reach_the_last_time():
 
 
 @pytest.mark.parametrize("arguments, text", [
-    (["--site", "40,-80"], "needs --site and --time"),
+    (["--site", "40,-80"], "needs --time ISO"),
     (["--site", "40", "--time", "2003-10-17T12:00:00Z"], "LAT,LON"),
     (["--site", "91,0", "--time", "2003-10-17T12:00:00Z"], "'91,0'"),
     (["--site", "40,-80", "--time", "2003-10-17T12:00:00"], "2003-10-17T12:00:00"),
     (["--site", "40,-80", "--time", "2003-10-17T12:00:00Z", "--step-min", "5"], "go together"),
     (["--site", "40,-80", "--time", "2003-10-17T12:00:00Z", "--until", "2003-10-18T12:00:00Z",
-      "--step-min", "0"], "--step-min '0'"),
+      "--step-min", "0"], "--step-min: found '0'"),
     (["--site", "40,-80", "--time", "2003-10-17T12:00:00Z", "--until", "2003-10-16T12:00:00Z",
       "--step-min", "5"], "before"),
-    (["--no-such-option"], "'--no-such-option' is no option"),
-    (["--site"], "'--site' needs a value"),
+    (["--no-such-option"], "unknown option '--no-such-option'"),
+    (["--site"], "--site needs a value"),
     (["extra"], "'extra'"),
 ])
 def test_wrong_usage_exits_2_and_says_why(arguments, text):

@@ -60,13 +60,35 @@ def test_the_scene_states_its_times_in_a_list(program, tmp_path):
     assert sorted(p.name for p in (tmp_path / "day").iterdir()) == [FOLDERS[0], FOLDERS[2]]
 
 
+NINETY_SIX = [f"1992-06-23T{i // 4:02}:{15 * (i % 4):02}:00-04:00" for i in range(96)]
+
+
+@pytest.mark.parametrize("option", [["--time", ",".join(NINETY_SIX)],
+                                    ["--set", f"site.time=[{','.join(NINETY_SIX)}]"]])
+def test_the_command_line_takes_96_times(program, tmp_path, option):
+    path = write(program, tmp_path)
+
+    done = program.run("render", path, "-o", tmp_path / "day", "--planes", "none-such", *option)
+
+    assert done.returncode == 1 and "no plane 'none-such'" in done.stderr
+
+
+def test_more_than_96_times_are_refused_with_their_number(program, tmp_path):
+    times = NINETY_SIX + ["1992-06-23T23:50:00-04:00"]
+
+    done = program.run("render", write(program, tmp_path), "-o", tmp_path / "day",
+                       "--time", ",".join(times))
+
+    assert done.returncode == 1 and "97 times, expected 1 to 96" in done.stderr
+
+
 @pytest.mark.parametrize("times, message", [
     (["1992-06-23T06:00:00-04:00", "1992-06-24T06:00:00-04:00"], "times of one local day"),
     (["1992-06-23T06:00:00-04:00", "1992-06-23T12:00:00Z"], "times of one local day"),
     (["1992-06-23T08:00:00-04:00", "1992-06-23T06:00:00-04:00"], "a time after the one before"),
     (["1992-06-23T08:00:00-04:00", "1992-06-23T08:00:00-04:00"], "a time after the one before"),
     (["1992-06-23T08:00:00-04:00", "noon"], "--set"),
-    ([""], "'' is no value for --time"),
+    ([""], "--time: found ''"),
 ])
 def test_times_that_do_not_go_together_are_refused(program, tmp_path, times, message):
     path = write(program, tmp_path)

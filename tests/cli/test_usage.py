@@ -3,7 +3,8 @@ import re
 
 import pytest
 
-COMMANDS = ["render", "check", "trace", "shape-factor", "thermal", "sun", "view", "devices"]
+COMMANDS = ["render", "check", "trace", "shape-factor", "thermal", "sun", "view", "devices",
+            "weather", "validate"]
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -14,8 +15,19 @@ def test_help_of_a_command_goes_to_stdout(program, command):
     assert done.stdout.startswith(f"usage: radsig {command}")
 
 
-def test_help_lists_every_command(program):
-    done = program.run("--help")
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_way_to_ask_for_help_gives_the_same(program, command):
+    asked = program.run(command, "--help").stdout
+
+    assert program.run("help", command).stdout == asked
+    assert program.run(command, "-h").stdout == asked
+    assert re.search(r"^  -h, --help", asked, re.M)
+    assert max(map(len, asked.splitlines())) <= 100
+
+
+@pytest.mark.parametrize("asking", ["--help", "-h", "help"])
+def test_help_lists_every_command(program, asking):
+    done = program.run(asking)
 
     assert done.returncode == 0 and done.stderr == ""
     for command in COMMANDS:
@@ -54,6 +66,44 @@ def test_an_unknown_option_ends_with_2_and_names_it(program, command):
     assert "--no-such-option" in done.stderr
 
 
+@pytest.mark.parametrize("arguments, hint", [
+    (["rendr"], "radsig: unknown command 'rendr' (did you mean 'render'?)"),
+    (["chekc", "a.toml"], "radsig: unknown command 'chekc' (did you mean 'check'?)"),
+    (["help", "thermla"], "radsig: unknown command 'thermla' (did you mean 'thermal'?)"),
+    (["render", "--sise", "3x3"], "radsig render: unknown option '--sise' (did you mean '--size'?)"),
+    (["render", "--sise=3x3"], "radsig render: unknown option '--sise' (did you mean '--size'?)"),
+    (["thermal", "--mat", "a"], "unknown option '--mat' (did you mean '--materials'?)"),
+    (["view", "--ofscreen", "a.png"], "unknown option '--ofscreen' (did you mean '--offscreen'?)"),
+])
+def test_a_misspelt_name_is_told_the_nearest(program, arguments, hint):
+    done = program.run(*arguments)
+
+    assert done.returncode == 2 and done.stdout == "" and hint in done.stderr
+
+
+@pytest.mark.parametrize("arguments", [["no-such-command"], ["render", "--quiet"], ["render", "-x"]])
+def test_a_name_that_is_far_from_all_is_told_none(program, arguments):
+    done = program.run(*arguments)
+
+    assert done.returncode == 2 and "unknown" in done.stderr and "mean" not in done.stderr
+
+
+@pytest.mark.parametrize("change, hint", [
+    (("focal_length_mm", "focal_lenght_mm"),
+     "camera.focal_lenght_mm: unknown key (did you mean 'focal_length_mm'?)"),
+    (("[camera]", "[camra]"), "camra: unknown key (did you mean 'camera'?)"),
+    (('name = "wall"', 'name = "wal"'), "material \"wall\" is neither in the library nor a "
+     "[[material]] (did you mean 'wal'?)"),
+])
+def test_a_misspelt_name_of_the_scene_is_told_the_nearest(program, tmp_path, change, hint):
+    scene = program.write_scene(tmp_path)
+    text = scene.read_text()
+    assert change[0] in text
+    scene.write_text(text.replace(*change, 1))
+
+    assert hint in program.run("check", scene).stderr
+
+
 @pytest.mark.parametrize("command", ["render", "check", "view"])
 def test_a_command_without_its_scene_ends_with_2(program, command):
     assert program.run(command).returncode == 2
@@ -61,14 +111,19 @@ def test_a_command_without_its_scene_ends_with_2(program, command):
 
 @pytest.mark.parametrize("arguments, words", [
     (["scene.toml"], "-o DIR"),
-    (["-o", "out"], "needs a scene"),
-    (["a.toml", "b.toml", "-o", "out"], "one scene"),
+    (["-o", "out"], "needs SCENE"),
+    (["a.toml", "b.toml", "-o", "out"], "found 'b.toml', expected one SCENE"),
     (["scene.toml", "-o"], "-o needs a value"),
     (["scene.toml", "-o", ""], "''"),
     (["scene.toml", "-o", "out", "--size", "32"], "'32'"),
     (["scene.toml", "-o", "out", "--size", "32x32x32"], "'32x32x32'"),
     (["scene.toml", "-o", "out", "--size", "-3x32"], "'-3x32'"),
-    (["scene.toml", "-o", "out", "--size=3*2"], "'3*2' is no value for --size"),
+    (["scene.toml", "-o", "out", "--size=3*2"], "--size: found '3*2', expected COLUMNSxROWS"),
+    (["scene.toml", "-o", "out", "--size", "4294967328x24"], "at most 2147483647 pixels"),
+    (["scene.toml", "-o", "out", "--size", "65536x65536"], "at most 2147483647 pixels"),
+    (["scene.toml", "-o", "out", "--exr=yes"], "--exr takes no value, found 'yes'"),
+    (["scene.toml", "-o", "out", "--device", "0,1,0"], "expected each device once"),
+    (["scene.toml", "-o", "out", "--device", "4294967296"], "'4294967296'"),
     (["scene.toml", "-o", "out", "--set", "camera.twist_deg"], "'camera.twist_deg'"),
     (["scene.toml", "-o", "out", "--device", "x"], "'x'"),
     (["scene.toml", "-o", "out", "--device", "-1"], "'-1'"),

@@ -1,5 +1,6 @@
 #include "scratch_folder.h"
 
+#include <fcntl.h>
 #include <math.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -148,7 +149,7 @@ static void a_damaged_file_is_written_anew(void **state)
     build_and_compare();
     const char *name = kept_file();
     char *whole = scratch_read(name, &size);
-    const size_t at[] = {0, 9, 40, 44, 48, 53, 70, 84, 88, 1000, size / 2, size - 1};
+    const size_t at[] = {0, 9, 20, 32, 36, 40, 44, 60, 70, 75, 80, 1000, size / 2, size - 1};
 
     for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
         whole[at[i]] ^= 16;
@@ -173,7 +174,7 @@ static void a_file_of_another_length_is_written_anew(void **state)
     build_and_compare();
     const char *name = kept_file();
     char *whole = scratch_read(name, &size); /* and a 0 behind it */
-    const size_t length[] = {0, 1, 87, 88, size - 1, size + 1};
+    const size_t length[] = {0, 1, 79, 80, size - 1, size + 1};
 
     for (size_t i = 0; i < sizeof length / sizeof *length; i++) {
         write_bytes(name, whole, length[i]);
@@ -273,6 +274,32 @@ static void without_a_stated_folder_that_of_the_home_is_used(void **state)
     }
 }
 
+static void a_tree_that_is_read_counts_as_used_now(void **state)
+{
+    (void)state;
+    const struct timespec long_ago[2] = {{.tv_sec = 1000}, {.tv_sec = 1000}};
+    struct stat found;
+    build_and_compare();
+    const char *name = kept_file();
+    assert_int_equal(utimensat(AT_FDCWD, scratch_path(name), long_ago, 0), 0);
+
+    build_and_compare();
+
+    assert_int_equal(stat(scratch_path(name), &found), 0);
+    assert_true(found.st_mtim.tv_sec > 1000000000); /* after 2001 */
+}
+
+static void a_tree_beyond_the_budget_is_not_kept(void **state)
+{
+    (void)state;
+    setenv("RADSIG_CACHE_GB", "1e-4", 1);
+
+    build_and_compare();
+
+    unsetenv("RADSIG_CACHE_GB");
+    assert_int_equal(scratch_count("cache/radsig"), 0);
+}
+
 static void small_trees_are_not_kept(void **state)
 {
     (void)state;
@@ -300,6 +327,8 @@ int main(void)
         IN_FOLDER(a_full_disk_is_no_failure_and_leaves_nothing),
         IN_FOLDER(several_processes_at_once_end_with_one_whole_file),
         IN_FOLDER(without_a_stated_folder_that_of_the_home_is_used),
+        IN_FOLDER(a_tree_that_is_read_counts_as_used_now),
+        IN_FOLDER(a_tree_beyond_the_budget_is_not_kept),
         IN_FOLDER(small_trees_are_not_kept),
     };
 

@@ -8,6 +8,7 @@
 #include <stdatomic.h>
 
 #include "errand.h"
+#include "interrupt.h"
 
 enum { ERRANDS = 100 };
 
@@ -70,6 +71,32 @@ static void warnings_become_the_callers_in_the_order_of_the_list(void **state)
     assert_string_equal(status_warnings(), "one\ntwo\n");
 }
 
+static atomic_int token;
+static atomic_uint begun;
+
+static status set_token(void *self)
+{
+    (void)self;
+    atomic_fetch_add(&begun, 1);
+    atomic_store(&token, 1);
+    return interrupt_check();
+}
+
+static void an_interrupt_is_obeyed_by_every_thread(void **state)
+{
+    errand list[ERRANDS];
+
+    (void)state;
+    for (int i = 0; i < ERRANDS; i++) list[i] = (errand){set_token, NULL};
+
+    interrupt_obey(&token);
+    assert_int_equal(errand_run(list, ERRANDS), STATUS_INTERRUPTED);
+    interrupt_obey(NULL);
+
+    assert_string_equal(status_message(), "interrupted");
+    assert_in_range(begun, 1, 8); /* one a thread */
+}
+
 static void no_errands_are_no_failure(void **state)
 {
     (void)state;
@@ -83,6 +110,7 @@ int main(void)
         cmocka_unit_test(every_errand_is_run_once),
         cmocka_unit_test(of_several_failures_the_first_of_the_list_is_told),
         cmocka_unit_test(warnings_become_the_callers_in_the_order_of_the_list),
+        cmocka_unit_test(an_interrupt_is_obeyed_by_every_thread),
         cmocka_unit_test(no_errands_are_no_failure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

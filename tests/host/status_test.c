@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <pthread.h>
 #include <string.h>
 
 static int forget(void **state)
@@ -129,6 +130,47 @@ static void more_than_fits_is_cut(void **state)
     assert_string_equal(status_warnings(), "");
 }
 
+static void *fail_elsewhere(void *record)
+{
+    status_warn("late");
+    status_warn("cold");
+    *(status_record *)record = status_record_take(status_set(STATUS_FILE, "no file"));
+    status_set(STATUS_MEMORY, "what comes later is not taken");
+    return NULL;
+}
+
+static void what_another_thread_left_is_told_line_by_line_and_once(void **state)
+{
+    status_record record;
+    pthread_t thread;
+
+    (void)state;
+    assert_int_equal(pthread_create(&thread, NULL, fail_elsewhere, &record), 0);
+    pthread_join(thread, NULL);
+    status_warn("cold");
+    status_warn("it is late");
+
+    assert_int_equal(status_record_tell(&record), STATUS_FILE);
+    assert_int_equal(status_record_tell(&record), STATUS_FILE);
+    status_record_free(&record);
+
+    assert_string_equal(status_message(), "no file");
+    assert_string_equal(status_warnings(), "cold\nit is late\nlate\n");
+}
+
+static void what_went_well_is_told_without_a_message(void **state)
+{
+    status_record record;
+
+    (void)state;
+    status_set(STATUS_FILE, "before");
+    record = status_record_take(STATUS_OK);
+
+    assert_int_equal(status_record_tell(&record), STATUS_OK);
+    assert_null(record.message);
+    status_record_free(&record);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -142,6 +184,8 @@ int main(void)
         cmocka_unit_test_setup(warnings_do_not_touch_the_message, forget),
         cmocka_unit_test_setup(told_warnings_stay_valid_while_new_ones_come, forget),
         cmocka_unit_test_setup(more_than_fits_is_cut, forget),
+        cmocka_unit_test_setup(what_another_thread_left_is_told_line_by_line_and_once, forget),
+        cmocka_unit_test_setup(what_went_well_is_told_without_a_message, forget),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,11 +4,15 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <dlfcn.h>
+#include <errno.h>
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <string.h>
 #include <time.h>
 
+#include "interrupt.h"
 #include "tile_queue.h"
 
 enum { PIXELS = 10007, WORKERS = 4 };
@@ -24,9 +28,20 @@ typedef struct fake {
 
 static atomic_uint times[PIXELS];
 static atomic_uint computed; /* pixels */
-static volatile sig_atomic_t stop;
+static atomic_int token;
+static int threads_left; /* that can still be started */
 static uint32_t last_progress;
 static bool is_rising;
+
+/* In place of the library's: fails once there are no threads left. */
+int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *),
+                   void *argument)
+{
+    int (*start)(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
+
+    *(void **)&start = dlsym(RTLD_NEXT, "pthread_create");
+    return threads_left-- > 0 ? start(thread, attributes, run, argument) : EAGAIN;
+}
 
 static status open_fake(void *self, uint32_t *out_most)
 {
@@ -64,15 +79,12 @@ static fake sound(void)
     return (fake){.most = 100, .room = PIXELS, .good_tiles = UINT32_MAX};
 }
 
-static status run(fake *fakes, size_t count, bool *out_failed)
+static status run_with(int threads, fake *fakes, size_t count, bool *out_failed)
 {
     static const char *const names[WORKERS] = {"first", "second", "third", "fourth"};
     tile_worker worker[WORKERS];
-    const tile_queue_job job = {.pixel_count = PIXELS,
-                                .worker = worker,
-                                .worker_count = count,
-                                .on_progress = progress,
-                                .stop = &stop};
+    const tile_queue_job job = {
+        .pixel_count = PIXELS, .worker = worker, .worker_count = count, .on_progress = progress};
 
     for (size_t i = 0; i < count; i++)
         worker[i] = (tile_worker){&fakes[i], names[i], open_fake, compute_fake};
@@ -81,7 +93,13 @@ static status run(fake *fakes, size_t count, bool *out_failed)
     last_progress = 0;
     is_rising = true;
     status_warnings();
+    threads_left = threads;
     return tile_queue_run(&job, out_failed);
+}
+
+static status run(fake *fakes, size_t count, bool *out_failed)
+{
+    return run_with(WORKERS, fakes, count, out_failed);
 }
 
 static void assert_every_pixel_once(void)
@@ -213,19 +231,84 @@ static void a_worker_without_room_for_a_pixel_fails(void **state)
     assert_true(failed[0] && failed[1]);
 }
 
-static void when_it_is_told_to_stop_it_is_interrupted(void **state)
+static void a_worker_without_a_thread_is_done_without(void **state)
 {
     (void)state;
-    stop = 1;
+    for (int threads = 0; threads < 2; threads++) {
+        fake fakes[3] = {sound(), sound(), sound()};
+        bool failed[3];
+
+        assert_int_equal(run_with(threads, fakes, 3, failed), STATUS_OK);
+
+        assert_every_pixel_once();
+        assert_int_equal(fakes[2].tiles, 0);
+        assert_false(failed[0] || failed[1] || failed[2]);
+        assert_non_null(
+            strstr(status_warnings(), "third is done without: no thread can be started\n"));
+    }
+}
+
+static void where_the_only_worker_with_a_thread_fails_the_run_fails(void **state)
+{
+    (void)state;
+    fake fakes[2] = {sound(), sound()};
+    bool failed[2];
+    fakes[0].good_tiles = 3;
+
+    assert_int_equal(run_with(0, fakes, 2, failed), STATUS_DEVICE);
+
+    assert_true(failed[0] && !failed[1]);
+    assert_string_equal(status_message(), "it broke");
+}
+
+static void an_interrupt_before_it_leaves_all_undone(void **state)
+{
+    (void)state;
+    atomic_store(&token, 1);
     for (size_t count = 1; count <= 2; count++) {
         fake fakes[2] = {sound(), sound()};
         bool failed[2];
 
+        interrupt_obey(&token);
         assert_int_equal(run(fakes, count, failed), STATUS_INTERRUPTED);
+        interrupt_obey(NULL);
 
         assert_int_equal(computed, 0);
     }
-    stop = 0;
+    atomic_store(&token, 0);
+}
+
+static status compute_until_interrupted(void *self, uint32_t first, uint32_t count)
+{
+    (void)self;
+    if (first == 0) atomic_store(&token, 1);
+    atomic_fetch_add(&computed, count);
+    return interrupt_check();
+}
+
+/* Workers that fail because of it are not said to have failed. */
+static void an_interrupt_ends_the_work_of_all_without_a_warning(void **state)
+{
+    (void)state;
+    for (size_t count = 1; count <= WORKERS; count++) {
+        fake fakes[WORKERS] = {sound(), sound(), sound(), sound()};
+        bool failed[WORKERS];
+        tile_worker worker[WORKERS];
+        const tile_queue_job job = {.pixel_count = PIXELS, .worker = worker, .worker_count = count};
+        for (size_t i = 0; i < count; i++)
+            worker[i] = (tile_worker){&fakes[i], "one", open_fake, compute_until_interrupted};
+        atomic_store(&computed, 0);
+        threads_left = WORKERS;
+
+        interrupt_obey(&token);
+        assert_int_equal(tile_queue_run(&job, failed), STATUS_INTERRUPTED);
+        interrupt_obey(NULL);
+
+        assert_string_equal(status_message(), "interrupted");
+        assert_string_equal(status_warnings(), "");
+        assert_true(computed < PIXELS);
+        atomic_store(&token, 0);
+    }
 }
 
 static void what_several_workers_warn_of_is_said_once(void **state)
@@ -234,11 +317,11 @@ static void what_several_workers_warn_of_is_said_once(void **state)
     fake fakes[3] = {sound(), sound(), sound()};
     bool failed[3];
     fakes[0].warning = fakes[2].warning = "it is late";
-    fakes[1].warning = "it is cold";
+    fakes[1].warning = "late"; /* a part of the other's, but not the same */
 
     assert_int_equal(run(fakes, 3, failed), STATUS_OK);
 
-    assert_string_equal(status_warnings(), "it is late\nit is cold\n");
+    assert_string_equal(status_warnings(), "it is late\nlate\n");
 }
 
 int main(void)
@@ -252,7 +335,10 @@ int main(void)
         cmocka_unit_test(the_failure_of_a_lone_worker_is_that_of_the_run),
         cmocka_unit_test(without_room_tiles_are_halved),
         cmocka_unit_test(a_worker_without_room_for_a_pixel_fails),
-        cmocka_unit_test(when_it_is_told_to_stop_it_is_interrupted),
+        cmocka_unit_test(a_worker_without_a_thread_is_done_without),
+        cmocka_unit_test(where_the_only_worker_with_a_thread_fails_the_run_fails),
+        cmocka_unit_test(an_interrupt_before_it_leaves_all_undone),
+        cmocka_unit_test(an_interrupt_ends_the_work_of_all_without_a_warning),
         cmocka_unit_test(what_several_workers_warn_of_is_said_once),
     };
 

@@ -23,10 +23,15 @@ def conduct(opencl):
         work = lambda size: cl.Buffer(opencl.context, cl.mem_flags.READ_WRITE, size)
         out = np.zeros((2 * len(forcing), PLACES), np.float32)
         target = cl.Buffer(opencl.context, copy, hostbuf=out)
-        kernel(opencl.queue, (1,), None, span[0], np.uint32(1),
-               buffer(np.array([0, PLACES], np.uint32)), buffer(facets), buffer(links),
-               buffer(forcing), None if lit is None else buffer(lit), np.uint32(0), None,
-               np.uint32(0), None, work(PLACES * 4096), work(9 * 4 * PLACES), target)
+        at = np.zeros(4, np.uint32)
+        progress = buffer(at)
+        fixed = (span[0], np.uint32(1), buffer(np.array([0, PLACES], np.uint32)), buffer(facets),
+                 buffer(links), buffer(forcing), None if lit is None else buffer(lit),
+                 np.uint32(0), None, np.uint32(0), None, work(PLACES * 4096),
+                 work(9 * 4 * PLACES), progress, target)
+        while not at[3]:
+            kernel(opencl.queue, (1,), None, *fixed)
+            cl.enqueue_copy(opencl.queue, at, progress)
         cl.enqueue_copy(opencl.queue, out, target)
         return out.astype(float)
 

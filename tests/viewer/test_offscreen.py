@@ -225,7 +225,8 @@ def test_a_script_s_wrong_line_is_refused_with_its_number(preview, scene, tmp_pa
 
 
 @pytest.mark.parametrize("arguments", [[], ["--no-such"], ["a", "b"], ["a", "--size", "3"],
-                                       ["a", "--offscreen", "a.gif"], ["a", "--plane"]])
+                                       ["a", "--offscreen", "a.gif"], ["a", "--plane"],
+                                       ["a", "--size", "4294967360x48"]])
 def test_wrong_usage_has_exit_code_2(preview, arguments):
     done = subprocess.run([preview.radsig, "view", *arguments], capture_output=True, text=True)
 
