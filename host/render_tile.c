@@ -72,7 +72,7 @@ static status allocate_bodies(render_tile_memory *t, const render_shared *r)
     status rc = STATUS_OK;
     const size_t n = t->room;
 
-    TRY(device_allocate(r->dev, &t->body_paths, n * TRANSMISSION_PATHS, NULL));
+    TRY(device_allocate(r->dev, &t->pixels.paths, n * TRANSMISSION_PATHS, NULL));
     TRY(device_allocate(r->dev, &t->direct, n, NULL));
     TRY(device_allocate(r->dev, &t->background_direct, n, NULL));
 out:
@@ -99,18 +99,18 @@ static status allocate(render_tile_memory *t, const render_shared *r)
     status rc = STATUS_OK;
     const size_t n = t->room;
 
-    TRY(device_allocate(r->dev, &t->hit, n, NULL));
+    TRY(device_allocate(r->dev, &t->pixels.hit, n, NULL));
     TRY(device_allocate(r->dev, &t->points.hit, n, NULL));
     TRY(device_allocate(r->dev, &t->points.order, n, NULL));
     TRY(device_allocate(r->dev, &t->points.met, n * shape_factor_cell_count(r->grid), NULL));
-    TRY(device_allocate(r->dev, &t->lit, n, NULL));
+    TRY(device_allocate(r->dev, &t->pixels.sunlit, n, NULL));
     TRY(device_allocate(r->dev, &t->history, n * temperature_history_words(r->warmth), NULL));
-    TRY(device_allocate(r->dev, &t->temperature_k, n, NULL));
-    TRY(device_allocate(r->dev, &t->background, n, NULL));
+    TRY(device_allocate(r->dev, &t->pixels.temperature_k, n, NULL));
+    TRY(device_allocate(r->dev, &t->pixels.background, n, NULL));
     TRY(device_allocate(r->dev, &t->background_hit, n, NULL));
-    TRY(device_allocate(r->dev, &t->background_lit, n, NULL));
+    TRY(device_allocate(r->dev, &t->pixels.background_sunlit, n, NULL));
     if (has_incident(r))
-        TRY(device_allocate(r->dev, &t->incident, n * 2 * r->frame.knot_count, NULL));
+        TRY(device_allocate(r->dev, &t->pixels.incident, n * 2 * r->frame.knot_count, NULL));
     if (has_incident(r) && scene_is_rough(r->s))
         TRY(device_allocate(r->dev, &t->gloss, n * LOBE_RAYS, NULL));
     if (r->bodies) TRY(allocate_bodies(t, r));
@@ -151,19 +151,19 @@ void render_tile_free(render_tile_memory *t)
     device_release(t->truth_planes);
     device_release(t->background_direct);
     device_release(t->direct);
-    device_release(t->body_paths);
-    device_release(t->incident);
+    device_release(t->pixels.paths);
+    device_release(t->pixels.incident);
     device_release(t->gloss);
-    device_release(t->background_lit);
+    device_release(t->pixels.background_sunlit);
     device_release(t->background_hit);
-    device_release(t->background);
-    device_release(t->temperature_k);
+    device_release(t->pixels.background);
+    device_release(t->pixels.temperature_k);
     device_release(t->history);
-    device_release(t->lit);
+    device_release(t->pixels.sunlit);
     device_release(t->points.met);
     device_release(t->points.order);
     device_release(t->points.hit);
-    device_release(t->hit);
+    device_release(t->pixels.hit);
     *t = (render_tile_memory){0};
 }
 
@@ -173,36 +173,28 @@ static status trace(const render_tile_memory *t, const render_shared *r)
     status rc = STATUS_OK;
     const point_tile where = {t->first, t->count, r->frame.columns * t->samples};
 
-    TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count, t->hit));
-    TRY(sunlight_cast(r->rays, r->frame.sun, t->count, t->hit, t->lit));
-    TRY(point_order_run(r->dev, t->hit, r->tables.facet, &where, t->points.order, t->points.hit));
+    TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count,
+                          t->pixels.hit));
+    TRY(sunlight_cast(r->rays, r->frame.sun, t->count, t->pixels.hit, t->pixels.sunlit));
+    TRY(point_order_run(r->dev, t->pixels.hit, r->tables.facet, &where, t->points.order,
+                        t->points.hit));
     TRY(shape_factor_run(r->is_coarse ? r->coarse_grid : r->grid, r->rays, &r->surfaces,
-                         has_incident(r) ? r->frame.sun : NULL, &t->points, t->background));
+                         has_incident(r) ? r->frame.sun : NULL, &t->points, t->pixels.background));
     TRY(mirror_run(r->dev, shape1(t->count),
                    &(mirror_args){.count = t->count,
                                   .camera = r->camera,
                                   .tree = ray_scene_tree(r->rays),
                                   .surface = r->surfaces,
-                                  .hit = t->hit,
-                                  .background = t->background}));
+                                  .hit = t->pixels.hit,
+                                  .background = t->pixels.background}));
     TRY(background_hit_run(r->dev, shape1(t->count),
                            &(background_hit_args){.count = t->count,
-                                                  .background = t->background,
+                                                  .background = t->pixels.background,
                                                   .hit = t->background_hit}));
-    TRY(sunlight_cast(r->rays, r->frame.sun, t->count, t->background_hit, t->background_lit));
+    TRY(sunlight_cast(r->rays, r->frame.sun, t->count, t->background_hit,
+                      t->pixels.background_sunlit));
 out:
     return rc;
-}
-
-static pixel_tables pixels_of(const render_tile_memory *t)
-{
-    return (pixel_tables){.hit = t->hit,
-                          .background = t->background,
-                          .temperature_k = t->temperature_k,
-                          .sunlit = t->lit,
-                          .background_sunlit = t->background_lit,
-                          .paths = t->body_paths,
-                          .incident = t->incident};
 }
 
 /* What stands on the pixels' ways to sensor, sun and background. */
@@ -223,8 +215,8 @@ static status cross_bodies(const render_tile_memory *t, const render_shared *r,
                                       .camera = r->camera,
                                       .world = ray_scene_tree(r->rays).world,
                                       .medium = bodies_tables(r->bodies),
-                                      .pixel = pixels_of(t),
-                                      .out_paths = t->body_paths,
+                                      .pixel = t->pixels,
+                                      .out_paths = t->pixels.paths,
                                       .direct = t->direct,
                                       .background_direct = t->background_direct}));
 out:
@@ -240,7 +232,7 @@ static status cast_gloss(const render_tile_memory *t, const render_shared *r,
                                    .camera = r->camera,
                                    .tree = ray_scene_tree(r->rays),
                                    .surface = r->surfaces,
-                                   .hit = t->hit,
+                                   .hit = t->pixels.hit,
                                    .out_met = t->gloss});
 }
 
@@ -261,7 +253,7 @@ static status integrate(const render_tile_memory *t, const render_shared *r,
                                               .air = r->air,
                                               .camera = r->camera,
                                               .surface = r->surfaces,
-                                              .pixel = pixels_of(t),
+                                              .pixel = t->pixels,
                                               .spectra = r->tables.spectra,
                                               .emissivities = t->emissivities,
                                               .terms = t->terms}));
@@ -289,8 +281,8 @@ static status collect_incident(const render_tile_memory *t, const render_shared 
         .frame = *frame,
         .camera = r->camera,
         .points = t->points,
-        .background = t->background,
-        .background_lit = t->background_lit,
+        .background = t->pixels.background,
+        .background_lit = t->pixels.background_sunlit,
         .gloss = t->gloss,
         .light_length = r->tables.blocks.sample_count,
         .spectra = all_are_knots ? r->tables.spectra : r->tables.knot_spectra,
@@ -301,7 +293,7 @@ static status collect_incident(const render_tile_memory *t, const render_shared 
     if (t->gloss.memory) TRY(cast_gloss(t, r, frame));
     pixels.frame.sample_count = frame->knot_count;
     pixels.light = interreflection_light(r->lights);
-    TRY(incident_compute(r->around, &pixels, t->incident));
+    TRY(incident_compute(r->around, &pixels, t->pixels.incident));
 out:
     return rc;
 }
@@ -311,7 +303,7 @@ static status colour(const render_tile_memory *t, const render_shared *r)
 {
     status rc = STATUS_OK;
     radiometry_record frame = r->frame;
-    pixel_tables pixels = pixels_of(t);
+    pixel_tables pixels = t->pixels;
 
     frame.first_pixel = t->first;
     frame.pixel_count = t->count;
@@ -339,10 +331,10 @@ status render_tile_compute(const render_tile_memory *t, const render_shared *r)
     status rc = STATUS_OK;
 
     const temperature_pixels pixels = {.count = t->count,
-                                       .hit = t->hit,
+                                       .hit = t->pixels.hit,
                                        .order = t->points.order,
                                        .history = t->history,
-                                       .temperature_k = t->temperature_k,
+                                       .temperature_k = t->pixels.temperature_k,
                                        .first_plane = TRUTH_PLANES,
                                        .planes = t->truth_planes};
 

@@ -55,6 +55,20 @@ typedef struct body_lobe {
     uint first, ring, ring_count; /* first: its row, RECORD_NONE: Lambertian, or a mirror */
 } body_lobe;
 
+/* Takes the ray through a cell of a hemisphere.
+ *   weight   that of the diffuse share; becomes the ray's
+ * Returns its word, see hemisphere.cl. */
+static uint take_cell_ray(const hemisphere_tables *rays, const body_lobe *lobe, uint count,
+                          uint place, uint c, float *out_direction, float *weight)
+{
+    global const float *cell = rays->cell + 4u * c;
+
+    hemisphere_lanes_direction(&lobe->view.axes, cell, out_direction);
+    *weight *= cell[3];
+    *weight *= out_direction[2] > 0.0f ? lobe->view.above : lobe->view.below;
+    return rays->met[(size_t)c * count + place];
+}
+
 /* Adds what bodies change of one ray to every sample. */
 static void add_change(const body_ray *r, const body_lobe *lobe, const body_tables *t,
                        global float *out)
@@ -127,10 +141,8 @@ kernel void incident_bodies(const radiometry_record frame, const camera_record c
         uint word;
         float weight = specular / (float)gloss_count(material);
         if (c < cell_rays) {
-            word = rays.met[(size_t)c * frame.pixel_count + place];
-            hemisphere_lanes_direction(&lobe.view.axes, rays.cell + 4u * c, direction);
-            weight = (1.0f - specular) * rays.cell[4u * c + 3u];
-            weight *= direction[2] > 0.0f ? lobe.view.above : lobe.view.below;
+            weight = 1.0f - specular;
+            word = take_cell_ray(&rays, &lobe, frame.pixel_count, place, c, direction, &weight);
             lobe.first = material.lobe_first;
             lobe.ring = ring_of_cell(cells, c);
         } else {

@@ -3,14 +3,13 @@ import pathlib
 import sys
 
 import numpy as np
-import probe
 import ray_world
+import records
 import test_sun_history as history
 import tree
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 import cases  # noqa: E402
-import test_crossing  # noqa: E402
 
 UP = (0, 0, 1)
 
@@ -18,23 +17,21 @@ UP = (0, 0, 1)
 def shares(opencl, mesh, sun, hits, lit):
     """Shape (points, slots): 0 .. 255. lit: (slots), of all points."""
     nodes, blocks, low, high = tree.build(*mesh)
-    bodies = np.zeros(1, test_crossing.BODIES)
+    bodies = np.zeros(1, records.CROSSING_WORLD)
     bodies["low"], bodies["high"], bodies["stated_k"] = low, high, 280
     bodies["broad_band_per_m"] = (.03, 0, 0, 0)
     day = history.a_day()
     day["stride"] = 9 * history.WORDS
     words = np.zeros((len(hits), 9 * history.WORDS), np.uint32)
     words[:, :history.WORDS] = np.packbits(lit, bitorder="little").view(np.uint32)
-    world = np.zeros(1, ray_world.WORLD)
+    world = np.zeros(1, records.WORLD)
     world["ground_facet"], world["offset_m"] = ray_world.NONE, 1e-4
-    arrays = (nodes, blocks, np.zeros(len(mesh[0]), np.uint32), np.zeros(2, np.float32), sun, hits)
-    kernel = opencl.build("sun_share")
-    memory = probe.copy(opencl, words)
-    kernel(opencl.queue, (len(hits), 8 * history.WORDS), None, np.uint32(len(hits)), day[0],
-           world[0], bodies[0], *(probe.copy(opencl, a) for a in arrays), memory)
-    out = np.empty_like(words)
-    probe.cl.enqueue_copy(opencl.queue, out, memory)
-    return np.ascontiguousarray(out[:, history.WORDS:]).view(np.uint8)
+    medium = {"bodies": bodies, "body_nodes": nodes.view(records.BVH_NODE),
+              "body_blocks": blocks.view(records.BVH_BLOCK),
+              "medium_row": np.zeros(len(mesh[0]), np.uint32), "air_level": np.zeros(2, np.float32)}
+    opencl.run("sun_share", (len(hits), 8 * history.WORDS), count=len(hits), day=day, world=world,
+               medium=medium, sun=sun, hit=hits, lit=words)
+    return np.ascontiguousarray(words[:, history.WORDS:]).view(np.uint8)
 
 
 def test_every_lit_step_has_the_transmission_of_its_slant_through_a_slab(opencl):
