@@ -50,7 +50,8 @@ static status crew_open(crew *c, size_t decks)
     const char *folder = getenv("TMPDIR");
     const int processors = processor_count();
 
-    TRY(staging_folder_open(&c->folder, folder && *folder ? folder : "/tmp"));
+    if (!folder || !*folder) folder = "/tmp";
+    TRY(staging_folder_open(&c->folder, folder, folder));
     while (c->count < processors && (size_t)c->count < decks) {
         TRY(lowtran_process_open(&c->process[c->count], staging_folder_path(c->folder), c->count));
         c->count++;

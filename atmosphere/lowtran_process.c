@@ -178,7 +178,7 @@ static bool was_interrupted(int wait_status)
 {
     const int number = WIFSIGNALED(wait_status) ? WTERMSIG(wait_status) : 0;
 
-    return number == SIGINT || number == SIGTERM;
+    return number == SIGINT || number == SIGTERM || number == SIGHUP;
 }
 
 /* How often a text holds another, and where last. */

@@ -19,5 +19,6 @@ int main(int argc, char **argv)
 
     sigaction(SIGINT, &interrupt, NULL);
     sigaction(SIGTERM, &interrupt, NULL);
+    if (signal(SIGHUP, SIG_IGN) != SIG_IGN) sigaction(SIGHUP, &interrupt, NULL); /* but for nohup */
     return program_run(&tool, argc, argv);
 }

@@ -4,7 +4,6 @@
 #include "ray_model.h"
 #include "ray_stream.h"
 
-#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -142,13 +141,12 @@ static status run(const trace_request *request)
     ray_scene_set_cull(ray_model_scene(model), false, request->cull_back);
     TRY(open_answer(&answer, ray_scene_device(ray_model_scene(model))));
     stream.origin_m = ray_model_geometry(model)->origin_m;
-    for (;;) {
+    while (!ferror(stdout)) { /* then the program ends, and says why */
         TRY(ray_stream_read(&stream, batch));
         if (batch->count == 0) break;
         TRY(cast(ray_model_scene(model), batch, request->any_hit, answer));
         print_answer(request, batch, answer, ray_model_geometry(model));
     }
-    NEED(fflush(stdout) == 0 && !ferror(stdout), STATUS_FILE, "stdout: %s", strerror(errno));
 out:
     free_answer(answer);
     ray_model_free(model);

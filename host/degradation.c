@@ -120,7 +120,8 @@ static double steady_noise(const degradation *how, const band_samples *s, bool t
     return hypot(hypot(how->netd_k * slope, how->nesr * s->width_um), read);
 }
 
-/* The same whichever other bands there are (Fowler, Noll and Vo's hash, FNV-1a). */
+/* The same whichever other bands there are (Fowler, Noll and Vo's hash,
+ * FNV-1a): the noise of an image depends on it. */
 static uint32_t key_of(const char *name)
 {
     uint32_t key = 2166136261u;

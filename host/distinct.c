@@ -2,15 +2,7 @@
 
 #include <stdlib.h>
 #include <string.h>
-
-/* FNV-1a over words, its high bits folded in. */
-static uint64_t hash_row(const uint32_t *row, size_t word_count)
-{
-    uint64_t hash = 0xcbf29ce484222325u;
-
-    for (size_t i = 0; i < word_count; i++) hash = (hash ^ row[i]) * 0x100000001b3u;
-    return hash ^ hash >> 32;
-}
+#include <xxhash.h>
 
 status distinct_rows(const uint32_t *rows, size_t word_count, size_t count, uint32_t *out_group,
                      uint32_t *out_first, size_t *out_count)
@@ -25,7 +17,7 @@ status distinct_rows(const uint32_t *rows, size_t word_count, size_t count, uint
     NEED(table, STATUS_MEMORY, "no memory to compare %zu rows", count);
     for (size_t i = 0; i < count; i++) {
         const uint32_t *row = rows + i * word_count;
-        size_t place = hash_row(row, word_count) & (size - 1);
+        size_t place = XXH3_64bits(row, word_count * sizeof *row) & (size - 1);
         while (table[place] && memcmp(rows + (size_t)out_first[table[place] - 1] * word_count, row,
                                       word_count * sizeof *row) != 0)
             place = (place + 1) & (size - 1);

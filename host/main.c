@@ -1,8 +1,6 @@
 /* radsig: the command line. */
 #include "command.h"
 
-#include <signal.h>
-
 static const program_command commands[] = {
     {"render", command_render, "make the image of a scene and its truth planes"},
     {"check", command_check, "read a scene, report every error, summarise it"},
@@ -20,6 +18,5 @@ int main(int argc, char **argv)
 {
     const program radsig = {"radsig", commands, sizeof commands / sizeof *commands};
 
-    signal(SIGXFSZ, SIG_IGN); /* a limit on files is then an error of writing */
     return program_run(&radsig, argc, argv);
 }

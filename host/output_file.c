@@ -88,7 +88,7 @@ status output_file_open(output_file **out, const char *path)
     char *folder = folder_of(path);
 
     NEED(folder, STATUS_MEMORY, "%s: no memory to write it", path);
-    TRY(staging_folder_open(&own, folder));
+    TRY(staging_folder_open(&own, folder, path));
     TRY(output_file_open_staged(out, own, path));
     (*out)->own = own;
     own = NULL;

@@ -69,7 +69,7 @@ status output_folder_open(output_folder **out, const char *path)
     folder->made = calloc(strlen(folder->path) + 1, 1);
     NEED(folder->made, STATUS_MEMORY, "%s: no memory to make it", path);
     TRY(make_with_parents(folder));
-    TRY(staging_folder_open(&folder->staging, folder->path));
+    TRY(staging_folder_open(&folder->staging, folder->path, folder->path));
     *out = folder;
     folder = NULL;
 out:

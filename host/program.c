@@ -1,6 +1,7 @@
 #include "program.h"
 
 #include "spelling.h"
+#include "standard_output.h"
 
 #include <stdarg.h>
 #include <stdbool.h>
@@ -59,7 +60,7 @@ static int answer(const program *p, int argc, char **argv)
     return 0;
 }
 
-int program_run(const program *p, int argc, char **argv)
+static int run(const program *p, int argc, char **argv)
 {
     static const char *const own[] = {"--help", "-h", "help", "--version"};
 
@@ -94,6 +95,19 @@ int program_end(const char *command, status rc)
     if (rc == STATUS_OK) return 0;
     print_lines(command, "", status_message());
     return rc == STATUS_INTERRUPTED ? EXIT_INTERRUPTED : 1;
+}
+
+int program_close(const char *command, int code)
+{
+    const int lost = program_end(command, standard_output_close());
+
+    return code ? code : lost;
+}
+
+int program_run(const program *p, int argc, char **argv)
+{
+    standard_output_open();
+    return program_close(p->name, run(p, argc, argv));
 }
 
 int program_misuse(const char *command, const char *format, ...)

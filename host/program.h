@@ -30,6 +30,10 @@ int program_run(const program *p, int argc, char **argv);
  * command's full name, such as `radsig render`; returns the exit code. */
 int program_end(const char *command, status rc);
 
+/* Closes the standard output, and tells if anything printed there was lost. Returns the exit code:
+ * 1 then, unless `code` is another than 0 already. program_run does it. */
+int program_close(const char *command, int code);
+
 /* Prints the warnings so far and forgets them. */
 void program_warn(const char *command);
 

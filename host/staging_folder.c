@@ -112,23 +112,22 @@ static bool make(staging_folder *s, const char *parent, size_t size)
     return false;
 }
 
-status staging_folder_open(staging_folder **out, const char *parent)
+status staging_folder_open(staging_folder **out, const char *parent, const char *wanted)
 {
     status rc = STATUS_OK;
     const size_t size = strlen(parent) + sizeof prefix + sizeof random_part + 1;
     bool is_made = false;
     staging_folder *s = calloc(1, sizeof *s);
 
-    NEED(s, STATUS_MEMORY, "%s: no memory to write into it", parent);
+    NEED(s, STATUS_MEMORY, "%s: no memory to write it", wanted);
     s->parent = s->self = s->lock = -1;
     s->path = malloc(size);
-    NEED(s->path, STATUS_MEMORY, "%s: no memory to write into it", parent);
+    NEED(s->path, STATUS_MEMORY, "%s: no memory to write it", wanted);
     s->parent = open(parent, FOLDER_FLAGS);
-    NEED(s->parent >= 0, STATUS_FILE, "%s: files cannot be made in it: %s", parent,
-         strerror(errno));
+    NEED(s->parent >= 0, STATUS_FILE, "%s: %s", wanted, strerror(errno));
     remove_all_left(s->parent);
     for (int i = 0; i < TRY_LIMIT && !is_made; i++) is_made = make(s, parent, size);
-    NEED(is_made, STATUS_FILE, "%s: files cannot be made in it: %s", parent, strerror(errno));
+    NEED(is_made, STATUS_FILE, "%s: %s", wanted, strerror(errno));
     *out = s;
     s = NULL;
 out:

@@ -9,8 +9,10 @@
 typedef struct staging_folder staging_folder;
 
 /* Makes `.radsig-XXXXXX` in the folder `parent`, after removing those that killed processes of this
- * user left there. Fails with STATUS_FILE if the parent cannot be listed or takes no folder. */
-status staging_folder_open(staging_folder **out, const char *parent);
+ * user left there.
+ *   wanted   what is to be made there, for the message
+ * Fails with STATUS_FILE if the parent cannot be listed or takes no folder. */
+status staging_folder_open(staging_folder **out, const char *parent, const char *wanted);
 
 /* For programs that are told where to write. */
 const char *staging_folder_path(const staging_folder *staging);

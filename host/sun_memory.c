@@ -1,10 +1,12 @@
 #include "sun_memory.h"
 
 #include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
 
-/* Points are told by a sum over their bytes and by their number. */
 typedef struct kept_points {
-    uint64_t key;
+    uint64_t key; /* tells most others apart */
+    hit_record *hit;
     uint32_t count, words;
     sun_memory_entry entry;
     struct kept_points *next;
@@ -14,15 +16,12 @@ struct sun_memory {
     kept_points *first;
 };
 
-/* FNV-1a, 64 bits, of 32-bit words. */
-static uint64_t key_of(const hit_record *hit, uint32_t count)
+static void free_points(kept_points *points)
 {
-    const uint32_t *word = (const uint32_t *)hit;
-    const size_t words = count * (sizeof *hit / sizeof *word);
-    uint64_t key = 14695981039346656037u;
-
-    for (size_t i = 0; i < words; i++) key = (key ^ word[i]) * 1099511628211u;
-    return key;
+    if (!points) return;
+    free(points->entry.lit);
+    free(points->hit);
+    free(points);
 }
 
 status sun_memory_open(sun_memory **out)
@@ -40,8 +39,7 @@ void sun_memory_free(sun_memory *memory)
     if (!memory) return;
     for (kept_points *at = memory->first, *next; at; at = next) {
         next = at->next;
-        free(at->entry.lit);
-        free(at);
+        free_points(at);
     }
     free(memory);
 }
@@ -50,28 +48,29 @@ status sun_memory_find(sun_memory *memory, const hit_record *hit, uint32_t count
                        sun_memory_entry **out)
 {
     status rc = STATUS_OK;
-    const uint64_t key = key_of(hit, count);
+    const size_t bytes = count * sizeof *hit;
+    const uint64_t key = XXH3_64bits(hit, bytes);
     kept_points *made = NULL;
 
     for (kept_points *at = memory->first; at; at = at->next) {
         if (at->key != key || at->count != count || at->words != words) continue;
+        if (memcmp(at->hit, hit, bytes) != 0) continue;
         *out = &at->entry;
         return STATUS_OK;
     }
     made = calloc(1, sizeof *made);
     NEED(made, STATUS_MEMORY, "no memory for the sun's day of %u points", count);
+    *made = (kept_points){.key = key, .count = count, .words = words, .next = memory->first};
+    made->hit = malloc(bytes);
     made->entry.lit = malloc((size_t)count * words * sizeof *made->entry.lit);
-    NEED(made->entry.lit, STATUS_MEMORY, "no memory for the sun's day of %u points", count);
+    NEED(made->hit && made->entry.lit, STATUS_MEMORY, "no memory for the sun's day of %u points",
+         count);
+    memcpy(made->hit, hit, bytes);
     made->entry.last = SUN_MEMORY_NOTHING;
-    made->key = key;
-    made->count = count;
-    made->words = words;
-    made->next = memory->first;
     memory->first = made;
     *out = &made->entry;
     made = NULL;
 out:
-    if (made) free(made->entry.lit);
-    free(made);
+    free_points(made);
     return rc;
 }

@@ -13,6 +13,7 @@ extern "C" {
 #include <cstring>
 #include <memory>
 #include <vector>
+#include <xxhash.h>
 
 namespace
 {
@@ -42,15 +43,6 @@ void check(const soup_view &soup)
                               std::to_string(soup.corner[c]) + " of " +
                               std::to_string(soup.vertex_count));
     }
-}
-
-std::uint64_t mixed(std::uint64_t x)
-{
-    x ^= x >> 33;
-    x *= 0xff51afd7ed558ccdull;
-    x ^= x >> 33;
-    x *= 0xc4ceb9fe1a85ec53ull;
-    return x ^ x >> 33;
 }
 
 /* Finds, among the items seen so far, the first one that is equal. */
@@ -97,7 +89,7 @@ std::vector<std::uint32_t> welded(const soup_view &soup)
 
     for (std::uint32_t i = 0; i < soup.vertex_count; i++) {
         const auto word = bits(i);
-        const std::uint64_t hash = mixed(word[0] + mixed(word[1] + mixed(word[2])));
+        const std::uint64_t hash = XXH3_64bits(word.data(), sizeof word);
         first[i] = seen.find_or_add(
             i, hash, [&](std::uint32_t a, std::uint32_t) { return bits(a) == word; });
     }
@@ -201,9 +193,8 @@ class connector
         first_equal seen(soup_.face_count);
 
         for (std::uint32_t i = 0; i < soup_.face_count; i++) {
-            std::uint64_t hash = 0;
-            for (std::uint32_t v = set.begin[i]; v < set.begin[i + 1]; v++)
-                hash = mixed(hash + set.vertex[v]);
+            const std::uint64_t hash =
+                XXH3_64bits(set.vertex.data() + set.begin[i], set.size(i) * sizeof set.vertex[0]);
             if (!is_finite(soup_, i))
                 result_.non_finite_count++;
             else if (set.size(i) < 3 || is_flat(soup_, i))

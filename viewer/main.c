@@ -11,6 +11,7 @@
 #include "program.h"
 #include "saving.h"
 #include "script.h"
+#include "standard_output.h"
 #include "window.h"
 
 static const char command[] = "radsig view";
@@ -154,7 +155,9 @@ int main(int argc, char **argv)
 {
     arguments a = {0};
     const double start_s = clock_now_s();
-    const int code = read_arguments(&a, argc, argv);
 
-    return code == OPTION_TABLE_DONE ? program_end(command, run(&a, argv[1], start_s)) : code;
+    standard_output_open();
+    int code = read_arguments(&a, argc, argv);
+    if (code == OPTION_TABLE_DONE) code = program_end(command, run(&a, argv[1], start_s));
+    return program_close(command, code);
 }

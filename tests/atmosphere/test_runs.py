@@ -39,22 +39,48 @@ def test_without_radsig_lowtran_it_tells_how_to_build_it(moved, tmp_path):
     assert "a folder/radsig-lowtran: No such file or directory (make atmosphere builds it)" in done.stderr
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_an_interrupted_run_leaves_the_old_file_and_nothing_else(atmosphere, tmp_path, number):
-    (tmp_path / "scratch").mkdir()
-    (tmp_path / "x.radc").write_text("old")
-    started = subprocess.Popen([BUILD / "radsig-atmosphere", "make", VISIBLE, "-o", tmp_path / "x.radc"],
-                               env={**os.environ, "TMPDIR": str(tmp_path / "scratch")}, stderr=subprocess.PIPE,
+def start(folder):
+    """Runs in a session of its own, with a folder for its work, once LOWTRAN runs."""
+    (folder / "scratch").mkdir()
+    (folder / "x.radc").write_text("old")
+    started = subprocess.Popen([BUILD / "radsig-atmosphere", "make", VISIBLE, "-o", folder / "x.radc"],
+                               env={**os.environ, "TMPDIR": str(folder / "scratch")}, stderr=subprocess.PIPE,
                                start_new_session=True)
-    while not list((tmp_path / "scratch").glob("*/*/TAPE5")):
+    while not list((folder / "scratch").glob("*/*/TAPE5")):
         assert started.poll() is None
         time.sleep(0.01)
+    return started
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_an_interrupted_run_leaves_the_old_file_and_nothing_else(atmosphere, tmp_path, number):
+    started = start(tmp_path)
     os.killpg(started.pid, number)  # as a terminal does, to LOWTRAN's processes too
     said = started.communicate()[1]
 
     assert started.returncode == 130 and b"interrupted" in said
     assert (tmp_path / "x.radc").read_text() == "old"
     assert sorted(path.name for path in tmp_path.rglob("*")) == ["scratch", "x.radc"]
+
+
+def test_what_a_killed_run_left_goes_with_the_next(atmosphere, tmp_path):
+    started = start(tmp_path)
+    os.killpg(started.pid, signal.SIGKILL)
+    started.communicate()
+    assert len(list((tmp_path / "scratch").iterdir())) == 1
+
+    subprocess.run([BUILD / "radsig-atmosphere", "cloud", "stratus", "-o", tmp_path / "x.ext"], check=True,
+                   env={**os.environ, "TMPDIR": str(tmp_path / "scratch")})
+
+    assert list((tmp_path / "scratch").iterdir()) == []
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no /dev/full")
+def test_what_is_printed_and_does_not_arrive_ends_with_1(atmosphere):
+    for arguments in (["--help"], ["--version"], ["make", "--help"], ["show", VISIBLE.with_name("june24_lwir_12.radc")]):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([BUILD / "radsig-atmosphere", *arguments], stdout=full, stderr=subprocess.PIPE)
+        assert done.returncode == 1 and b"stdout: No space left on device" in done.stderr
 
 
 def test_by_night_one_run_serves_all_azimuths(atmosphere, tmp_path):

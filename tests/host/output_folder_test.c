@@ -95,6 +95,24 @@ static void a_folder_that_cannot_be_made_is_refused_with_its_path(void **state)
     assert_non_null(strstr(status_message(), "/proc/radsig"));
 }
 
+static void a_folder_that_may_not_be_made_is_refused_with_the_true_reason(void **state)
+{
+    int code = -1;
+    (void)state;
+
+    if (geteuid() != 0) skip(); /* a parent of another user */
+    chmod(scratch, 0755);
+    const pid_t process = fork();
+    if (process == 0) {
+        output_folder *folder = NULL;
+        if (setgid(65534) != 0 || setuid(65534) != 0) _exit(1);
+        if (output_folder_open(&folder, scratch_path("out")) != STATUS_FILE) _exit(2);
+        _exit(strstr(status_message(), "/out: cannot be made: Permission denied") ? 0 : 3);
+    }
+    assert_int_equal(waitpid(process, &code, 0), process);
+    assert_int_equal(code, 0);
+}
+
 static void a_folder_without_permission_is_refused_with_its_path(void **state)
 {
     output_folder *folder = NULL;
@@ -268,6 +286,7 @@ int main(void)
         TEST(a_failed_run_leaves_the_old_file_and_the_folder_that_was_there),
         TEST(a_folder_below_a_file_is_refused_with_the_file_s_path),
         TEST(a_folder_that_cannot_be_made_is_refused_with_its_path),
+        TEST(a_folder_that_may_not_be_made_is_refused_with_the_true_reason),
         TEST(a_folder_without_permission_is_refused_with_its_path),
         TEST(a_folder_in_the_place_of_a_file_stops_all_renames),
         TEST(two_files_of_one_name_are_refused),
