@@ -14,7 +14,7 @@ PREVIEW := $(PROGRAM)-view
 
 PACKAGES := build-essential pkg-config python3 python3-numpy python3-pyopencl python3-pytest \
 	python3-spectral pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libopenmesh-dev \
-	libtinyobjloader-dev libopenimageio-dev libtomlplusplus-dev libcmocka-dev libmd-dev fonts-dejavu-core \
+	libtinyobjloader-dev libopenimageio-dev libtomlplusplus-dev libcmocka-dev libmd-dev libjansson-dev fonts-dejavu-core \
 	libxxhash-dev uthash-dev libosmesa6-dev libglfw3-dev libgl-dev libgl1-mesa-dri xvfb xauth xdotool
 LINT_PACKAGES := clang-format clang cppcheck python3-venv
 
@@ -35,7 +35,7 @@ CFLAGS = -std=c11 -D_DEFAULT_SOURCE -D_POSIX_C_SOURCE=200809L -O2 -g -ffp-contra
 	-Wdouble-promotion -Werror=incompatible-pointer-types $(HARDEN) $(SANITIZE)
 CXXFLAGS = -std=c++17 -O2 -g -ffp-contract=off $(WARNINGS) -Wno-maybe-uninitialized $(HARDEN) $(SANITIZE) \
 	$(TOML_CFLAGS)
-LDLIBS = -lOpenCL -lOpenMeshCore $(TOML_LIBS) -lmd -lm
+LDLIBS = -lOpenCL -lOpenMeshCore $(TOML_LIBS) -ljansson -lmd -lm
 # Each is asked for once, when it is first needed.
 TOML_CFLAGS = $(eval TOML_CFLAGS := $(shell pkg-config --cflags tomlplusplus))$(TOML_CFLAGS)
 TOML_LIBS = $(eval TOML_LIBS := $(shell pkg-config --libs tomlplusplus))$(TOML_LIBS)

@@ -30,6 +30,7 @@ static const uint8_t line_rgb[3] = {110, 110, 110};
 
 /* Band radiance by direction, W m-2 sr-1, and what the colours span. */
 typedef struct sky {
+    const char *title;
     const atmosphere *a;
     double *radiance; /* shape (zenith_count, azimuth_count) */
     double low, high;
@@ -153,7 +154,7 @@ out:
     return rc;
 }
 
-static status draw_names(picture *pic, const sky *s, const char *title)
+static status draw_names(picture *pic, const sky *s)
 {
     status rc = STATUS_OK;
     char text[128];
@@ -161,8 +162,21 @@ static status draw_names(picture *pic, const sky *s, const char *title)
     snprintf(text, sizeof text, "%.4g to %.4g um [W m-2 sr-1]%s; rings every %d degrees",
              s->a->wavelength_min_um, s->a->wavelength_max_um, s->is_log ? ", logarithmic" : "",
              RING_DEG);
-    TRY(picture_text(pic, CENTRE_X - RADIUS, 22, title, TITLE_SIZE));
+    TRY(picture_text(pic, CENTRE_X - RADIUS, 22, s->title, TITLE_SIZE));
     TRY(picture_text(pic, CENTRE_X - RADIUS, 42, text, TEXT_SIZE));
+out:
+    return rc;
+}
+
+static status draw_page(picture *pic, const void *self)
+{
+    status rc = STATUS_OK;
+    const sky *s = self;
+
+    draw_disc(pic, s);
+    TRY(draw_rings(pic));
+    TRY(draw_bar(pic, s));
+    TRY(draw_names(pic, s));
 out:
     return rc;
 }
@@ -171,22 +185,15 @@ status sky_plot_write(const char *path, const char *title, const atmosphere *a,
                       const double *direction)
 {
     status rc = STATUS_OK;
-    sky s = {.a = a};
+    sky s = {.a = a, .title = title};
     output_file *file = NULL;
-    picture *pic = NULL;
 
     TRY(integrate(&s, direction));
-    TRY(picture_create(&pic, PAGE_WIDTH, PAGE_HEIGHT));
-    draw_disc(pic, &s);
-    TRY(draw_rings(pic));
-    TRY(draw_bar(pic, &s));
-    TRY(draw_names(pic, &s, title));
     TRY(output_file_open(&file, path));
-    TRY(picture_write(pic, file));
+    TRY(picture_write(file, PAGE_WIDTH, PAGE_HEIGHT, draw_page, &s));
     TRY(output_file_commit(file));
 out:
     output_file_free(file);
-    picture_free(pic);
     free(s.radiance);
     return rc;
 }

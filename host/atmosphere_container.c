@@ -2,6 +2,8 @@
 
 #include "../kernels/records.h"
 #include "input_file.h"
+#include "interrupt.h"
+#include "json_text.h"
 #include "output_file.h"
 
 #include <errno.h>
@@ -14,13 +16,14 @@ static const char magic[] = "RADSIG ATMOSPHERE 1\n";
 
 #define RADIANCE_LIMIT 1e4 /* W m-2 sr-1 um-1, as in the text file */
 
-enum { LINE_SIZE = 1024, COUNT_LIMIT = 1000000, REQUIRED_KEYS = 14, NUMBER_KEYS = 16, ARRAYS = 21 };
+enum { COUNT_LIMIT = 1000000, REQUIRED_KEYS = 14, NUMBER_KEYS = 16, ARRAYS = 21 };
 
 /* A key of the JSON object, a number: in the struct a double, or an int. */
 typedef struct number_key {
     const char *name;
     double *number;
     int *count;
+    double low, high;
 } number_key;
 
 /* An array of the file, with the range of its values. */
@@ -43,22 +46,22 @@ static const char range_text[] =
 static void list_numbers(atmosphere *a, number_key out[NUMBER_KEYS])
 {
     const number_key keys[NUMBER_KEYS] = {
-        {"sensor_altitude_m", &a->sensor_altitude_m, NULL},
-        {"wavenumber_min_cm1", &a->wavenumber_min_cm1, NULL},
-        {"wavenumber_max_cm1", &a->wavenumber_max_cm1, NULL},
-        {"wavenumber_step_cm1", &a->wavenumber_step_cm1, NULL},
-        {"point_count", NULL, &a->point_count},
-        {"path_zenith_first_deg", &a->path_zenith_first_deg, NULL},
-        {"path_zenith_step_deg", &a->path_zenith_step_deg, NULL},
-        {"path_zenith_meaningful_deg", &a->path_zenith_meaningful_deg, NULL},
-        {"path_count", NULL, &a->path_count},
-        {"zenith_step_deg", &a->zenith_step_deg, NULL},
-        {"zenith_count", NULL, &a->zenith_count},
-        {"azimuth_step_deg", &a->azimuth_step_deg, NULL},
-        {"azimuth_count", NULL, &a->azimuth_count},
-        {"level_count", NULL, &a->level_count},
-        {"target_count", NULL, &a->target_count},
-        {"range_count", NULL, &a->range_count}};
+        {"sensor_altitude_m", &a->sensor_altitude_m, NULL, 0.0, 1e6},
+        {"wavenumber_min_cm1", &a->wavenumber_min_cm1, NULL, 100.0, 50000.0},
+        {"wavenumber_max_cm1", &a->wavenumber_max_cm1, NULL, 100.0, 50000.0},
+        {"wavenumber_step_cm1", &a->wavenumber_step_cm1, NULL, 1e-3, 50000.0},
+        {"point_count", NULL, &a->point_count, 1.0, COUNT_LIMIT},
+        {"path_zenith_first_deg", &a->path_zenith_first_deg, NULL, 0.0, 90.0},
+        {"path_zenith_step_deg", &a->path_zenith_step_deg, NULL, 1e-6, 90.0},
+        {"path_zenith_meaningful_deg", &a->path_zenith_meaningful_deg, NULL, 0.0, 90.0},
+        {"path_count", NULL, &a->path_count, 1.0, COUNT_LIMIT},
+        {"zenith_step_deg", &a->zenith_step_deg, NULL, 1e-6, 90.0},
+        {"zenith_count", NULL, &a->zenith_count, 1.0, COUNT_LIMIT},
+        {"azimuth_step_deg", &a->azimuth_step_deg, NULL, 0.0, 360.0},
+        {"azimuth_count", NULL, &a->azimuth_count, 1.0, COUNT_LIMIT},
+        {"level_count", NULL, &a->level_count, 1.0, COUNT_LIMIT},
+        {"target_count", NULL, &a->target_count, 1.0, COUNT_LIMIT},
+        {"range_count", NULL, &a->range_count, 1.0, COUNT_LIMIT}};
 
     memcpy(out, keys, sizeof keys);
 }
@@ -107,43 +110,66 @@ bool atmosphere_container_is(const char *path)
     return is;
 }
 
-/* Reads up to the object's end: the number keys in any order, the header's lines. */
+static status take_number(const number_key *key, double value, const char *path)
+{
+    status rc = STATUS_OK;
+
+    NEED(value >= key->low && value <= key->high && (key->number || value == floor(value)),
+         STATUS_FORMAT, "%s: %s is %g, expected a %snumber from %g to %g", path, key->name, value,
+         key->number ? "" : "whole ", key->low, key->high);
+    if (key->number)
+        *key->number = value;
+    else
+        *key->count = (int)value;
+out:
+    return rc;
+}
+
+/* The comment lines that came with the database, as one text. */
+static status read_header(char **out, const json_t *lines, const char *path)
+{
+    status rc = STATUS_OK;
+    size_t length, i;
+    const json_t *line;
+    FILE *header = open_memstream(out, &length);
+
+    NEED(header, STATUS_MEMORY, "%s: no memory to read it", path);
+    NEED(!lines || json_is_array(lines), STATUS_FORMAT, "%s: header: expected a list of strings",
+         path);
+    json_array_foreach(lines, i, line)
+    {
+        NEED(json_is_string(line), STATUS_FORMAT, "%s: header: expected a list of strings", path);
+        fprintf(header, "%s\n", json_string_value(line));
+    }
+out:
+    if (header) fclose(header);
+    return rc;
+}
+
+/* Reads the object and the line end behind it: the number keys in any order, the header. */
 static status read_object(atmosphere *a, FILE *file, const char *path)
 {
     status rc = STATUS_OK;
-    char line[LINE_SIZE], name[64];
+    json_error_t error;
     number_key keys[NUMBER_KEYS];
-    bool has[NUMBER_KEYS] = {false};
-    size_t length;
-    double value;
-    FILE *header = open_memstream(&a->header, &length);
+    json_t *object = json_loadf(file, JSON_REJECT_DUPLICATES | JSON_DISABLE_EOF_CHECK, &error);
 
-    NEED(header, STATUS_MEMORY, "%s: no memory to read it", path);
+    NEED(object, STATUS_FORMAT, "%s:%d: %s, expected a JSON object", path, 1 + error.line,
+         error.text);
+    NEED(fgetc(file) == '\n', STATUS_FORMAT, "%s: expected a line end behind the JSON object",
+         path);
     list_numbers(a, keys);
-    while (fgets(line, sizeof line, file) && strcmp(line, "}\n") != 0) {
-        if (*line == '"' && line[1] == '#') {
-            for (const char *c = line + 1; *c && *c != '"'; c++) {
-                if (*c == '\\' && c[1]) c++;
-                fputc(*c, header);
-            }
-            fputc('\n', header);
-        }
-        if (sscanf(line, "\"%63[a-z0-9_]\": %lf", name, &value) != 2) continue;
-        for (int i = 0; i < NUMBER_KEYS; i++) {
-            if (strcmp(name, keys[i].name) != 0) continue;
-            has[i] = true;
-            if (keys[i].number) *keys[i].number = value;
-            if (!keys[i].count) continue;
-            NEED(value >= 1.0 && value <= COUNT_LIMIT && value == floor(value), STATUS_FORMAT,
-                 "%s: %s is %g, expected a whole number from 1 to %d", path, name, value,
-                 COUNT_LIMIT);
-            *keys[i].count = (int)value;
-        }
+    for (int i = 0; i < NUMBER_KEYS; i++) {
+        const json_t *value = json_object_get(object, keys[i].name);
+        NEED(value || i >= REQUIRED_KEYS, STATUS_FORMAT, "%s: the key %s is missing", path,
+             keys[i].name);
+        if (!value) continue;
+        NEED(json_is_number(value), STATUS_FORMAT, "%s: %s: expected a number", path, keys[i].name);
+        TRY(take_number(&keys[i], json_number_value(value), path));
     }
-    for (int i = 0; i < REQUIRED_KEYS; i++)
-        NEED(has[i], STATUS_FORMAT, "%s: the key %s is missing", path, keys[i].name);
+    TRY(read_header(&a->header, json_object_get(object, "header"), path));
 out:
-    if (header) fclose(header);
+    json_decref(object);
     return rc;
 }
 
@@ -171,6 +197,7 @@ static status read_block(const block *b, int number, FILE *file, const char *pat
     float *values = NULL;
 
     if (!b->size) goto out;
+    TRY(interrupt_check());
     values = malloc(b->size * sizeof *values);
     *b->at = malloc(b->size * sizeof **b->at);
     NEED(values && *b->at, STATUS_MEMORY, "%s: no memory to read it", path);
@@ -202,6 +229,9 @@ static status set_grids(atmosphere *a, const char *path)
          path);
     NEED(a->path_zenith_first_deg >= 0.0 && a->path_zenith_step_deg > 0.0 && last <= 90.0,
          STATUS_FORMAT, "%s: the path's zenith angles leave 0 to 90", path);
+    NEED(a->path_zenith_meaningful_deg >= a->path_zenith_first_deg, STATUS_FORMAT,
+         "%s: path_zenith_meaningful_deg is %g, expected it from path_zenith_first_deg, %g", path,
+         a->path_zenith_meaningful_deg, a->path_zenith_first_deg);
     NEED(a->zenith_count > 1 && fabs((a->zenith_count - 1) * a->zenith_step_deg - 90.0) < 1e-3 &&
              (a->azimuth_count == 1 ||
               fabs((a->azimuth_count - 1) * a->azimuth_step_deg - 360.0) < 1e-3),
@@ -277,36 +307,56 @@ out:
     return rc;
 }
 
-static void write_header(FILE *stream, const char *header)
+/* Writes a value by itself and lets it go; false if there is none. */
+static bool put(FILE *stream, json_t *value)
 {
+    if (!value) return false;
+    json_dumpf(value, stream, JSON_ENCODE_ANY | JSON_REAL_PRECISION(10));
+    json_decref(value);
+    return true;
+}
+
+/* The lines of a text as a list, a string a line. */
+static status write_header(FILE *stream, const char *header)
+{
+    status rc = STATUS_OK;
+    char *line = NULL;
+
     fputs("\"header\": [\n", stream);
     while (*header) {
         const size_t length = strcspn(header, "\n");
-        fputc('"', stream);
-        for (size_t i = 0; i < length; i++) {
-            if (header[i] == '"' || header[i] == '\\') fputc('\\', stream);
-            fputc(header[i], stream);
-        }
+        free(line);
+        line = strndup(header, length);
+        NEED(line && put(stream, json_text(line)), STATUS_MEMORY, "no memory for a header");
         header += length + (header[length] == '\n');
-        fputs(*header ? "\",\n" : "\"\n", stream);
+        fputs(*header ? ",\n" : "\n", stream);
     }
     fputs("]\n}\n", stream);
+out:
+    free(line);
+    return rc;
 }
 
-static void write_object(FILE *stream, atmosphere *a)
+static status write_object(FILE *stream, atmosphere *a)
 {
+    status rc = STATUS_OK;
     number_key keys[NUMBER_KEYS];
 
     list_numbers(a, keys);
     fputs(magic, stream);
     fputs("{\n\"units\": \"W m-2 sr-1 um-1, W m-2 um-1\",\n", stream);
-    for (int i = 0; i < NUMBER_KEYS; i++)
-        if (i < REQUIRED_KEYS || *keys[i].count > 0)
-            fprintf(stream, "\"%s\": %.10g,\n", keys[i].name,
-                    keys[i].number ? *keys[i].number : (double)*keys[i].count);
+    for (int i = 0; i < NUMBER_KEYS; i++) {
+        const double value = keys[i].number ? *keys[i].number : (double)*keys[i].count;
+        if (i >= REQUIRED_KEYS && value == 0.0) continue;
+        fprintf(stream, "\"%s\": ", keys[i].name);
+        NEED(put(stream, json_text_number(value, NULL)), STATUS_MEMORY, "no memory for a header");
+        fputs(",\n", stream);
+    }
     fprintf(stream, "\"arrays\": \"float32, little-endian: %s%s%s\",\n", arrays_text,
             a->target_count ? target_text : "", a->range_count ? range_text : "");
-    write_header(stream, a->header);
+    TRY(write_header(stream, a->header));
+out:
+    return rc;
 }
 
 status atmosphere_container_write(const atmosphere *a, const char *path)
@@ -317,7 +367,7 @@ status atmosphere_container_write(const atmosphere *a, const char *path)
     atmosphere copy = *a; /* the lists point into it; nothing is changed */
 
     TRY(output_file_open(&file, path));
-    write_object(output_file_stream(file), &copy);
+    TRY(write_object(output_file_stream(file), &copy));
     list_blocks(&copy, blocks);
     for (int i = 0; i < ARRAYS; i++)
         for (size_t k = 0; k < blocks[i].size; k++) {

@@ -1,6 +1,7 @@
 #include "bvh.h"
 
 #include "bvh_wide.h"
+#include "interrupt.h"
 #include "polygon.h"
 
 #include <assert.h>
@@ -78,11 +79,13 @@ static void add_sides(builder *b, bool two_sided, const triangle *t)
     if (two_sided) add_triangle(b, t->facet, c[0], c[2], c[1]);
 }
 
-static void add_facets(builder *b, const bvh_source *source)
+static status add_facets(builder *b, const bvh_source *source)
 {
+    status rc = STATUS_OK;
     float reach = 0;
 
     for (uint32_t i = 0; i < source->facet_count; i++) {
+        TRY(interrupt_check());
         const uint32_t *c = source->corner[i];
         const bool two_sided = source->two_sided && source->two_sided[i];
         if (c[3] == UINT32_MAX) {
@@ -98,6 +101,8 @@ static void add_facets(builder *b, const bvh_source *source)
         reach = fmax(reach, fabs(b->tree->tables.high[k]));
     }
     b->pad_m = rounding * reach;
+out:
+    return rc;
 }
 
 /* Sorts the children by their centres along the diagonal of an octant. */
@@ -147,14 +152,15 @@ static void set_box(bvh_node *node, uint32_t child, const bvh_fork *fork, float 
     }
 }
 
-/* Adds the node over `top`; returns the stack entries that a ray below it can need. */
+/* Adds the node over `top`, after an interrupt without children; returns the stack entries that a ray below
+ * it can need. */
 static uint32_t add_node(builder *b, uint32_t top)
 {
     const uint32_t index = b->tree->tables.node_count++;
     bvh_node *node = &b->tree->node[index];
     uint32_t child[CHILDREN], count = 0, deepest = 0;
 
-    if (b->fork) count = bvh_wide_children(b->plan, b->fork, top, child);
+    if (b->fork && !interrupt_is_set()) count = bvh_wide_children(b->plan, b->fork, top, child);
     for (uint32_t i = 0; i < CHILDREN; i++) {
         set_box(node, i, i < count ? &b->fork[child[i]] : NULL, b->pad_m);
         node->child[i] = BVH_LEAF;
@@ -214,6 +220,7 @@ static status flatten(builder *b, bool even, uint32_t *out_stack)
     TRY(reserve(tree, leaf_count, leaf_count));
     *out_stack = add_node(b, 0);
     if (count == 0) add_leaf(b, &(bvh_fork){.count = 0});
+    TRY(interrupt_check());
 out:
     return rc;
 }
@@ -245,7 +252,7 @@ status bvh_build(bvh **out, const bvh_source *source)
     NEED(b.tree && b.triangle && b.item, STATUS_MEMORY, "no memory for a tree over %u facets",
          facet_count);
     NEED(most < UINT32_MAX / 2, STATUS_ARGUMENT, "a tree over %u facets is too large", facet_count);
-    add_facets(&b, source);
+    TRY(add_facets(&b, source));
     TRY(flatten(&b, false, &stack));
     if (stack > RAY_STACK_SIZE) {
         drop_flat(&b);

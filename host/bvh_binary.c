@@ -1,5 +1,7 @@
 #include "bvh_binary.h"
 
+#include "interrupt.h"
+
 #include <pthread.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -37,6 +39,7 @@ typedef struct builder {
     bvh_item *item;
     bool even;
     uint32_t thread_depth; /* above it the right subtree has a thread of its own */
+    const atomic_int *token;
 } builder;
 
 /* A subtree to build: its root's place among the forks, its items, and how many forks it got. */
@@ -177,7 +180,16 @@ static uint32_t choose(const builder *b, const box *bounds, const scale *s, bvh_
     return best.axis < 0 ? count / 2 : partition(&best, s, item, count);
 }
 
-static void *build_subtree(void *argument);
+static void build_subtree(subtree *t);
+
+static void *build_beside(void *argument)
+{
+    subtree *t = argument;
+
+    interrupt_obey(t->b->token);
+    build_subtree(t);
+    return NULL;
+}
 
 /* Builds both sides, together where that pays. What they hold does not hang on it: a subtree of n
  * items keeps to 2 n - 1 places. */
@@ -186,7 +198,7 @@ static void build_sides(subtree *left, subtree *right)
     pthread_t thread;
     const bool together = left->depth <= left->b->thread_depth && left->count > THREAD_ITEMS &&
                           right->count > THREAD_ITEMS &&
-                          pthread_create(&thread, NULL, build_subtree, right) == 0;
+                          pthread_create(&thread, NULL, build_beside, right) == 0;
 
     build_subtree(left);
     if (together)
@@ -195,15 +207,16 @@ static void build_sides(subtree *left, subtree *right)
         build_subtree(right);
 }
 
-static void *build_subtree(void *argument)
+/* After an interrupt what is left becomes leaves, whatever they hold. */
+static void build_subtree(subtree *t)
 {
-    subtree *t = argument;
     const builder *b = t->b;
     bvh_fork *fork = &b->fork[t->fork];
     bvh_item *item = b->item + t->first;
     scale s;
     const box bounds = measure(item, t->count, &s);
-    const uint32_t border = choose(b, &bounds, &s, item, t->count, t->depth);
+    const uint32_t border =
+        interrupt_is_set() ? 0 : choose(b, &bounds, &s, item, t->count, t->depth);
 
     *fork = (bvh_fork){.first = t->first, .count = t->count};
     for (int k = 0; k < 3; k++) {
@@ -219,7 +232,6 @@ static void *build_subtree(void *argument)
         build_sides(&left, &right);
         t->fork_count += left.fork_count + right.fork_count;
     }
-    return NULL;
 }
 
 /* Deep enough for twice as many threads as processors. */
@@ -236,14 +248,20 @@ status bvh_binary_build(bvh_fork **out_fork, uint32_t *out_count, bvh_item *item
                         bool even)
 {
     status rc = STATUS_OK;
-    builder b = {.item = item, .even = even, .thread_depth = find_thread_depth()};
+    builder b = {.item = item,
+                 .even = even,
+                 .thread_depth = find_thread_depth(),
+                 .token = interrupt_token()};
     subtree all = {.b = &b, .count = count};
 
     b.fork = malloc((2 * (size_t)count - 1) * sizeof *b.fork);
     NEED(b.fork, STATUS_MEMORY, "no memory for a tree over %u triangles", count);
     build_subtree(&all);
+    TRY(interrupt_check());
     *out_fork = b.fork;
     *out_count = all.fork_count;
+    b.fork = NULL;
 out:
+    free(b.fork);
     return rc;
 }

@@ -1,5 +1,7 @@
 #include "bvh_wide.h"
 
+#include "interrupt.h"
+
 #include <stdlib.h>
 
 /* What it costs to hang a fork into a node as up to 1 .. 8 children. */
@@ -35,7 +37,7 @@ static hanging plan_fork(uint32_t *plan, const bvh_fork *fork, uint32_t index)
     hanging out = {{0}};
 
     plan[index] = 0;
-    if (f->right == 0) return out;
+    if (f->right == 0 || interrupt_is_set()) return out;
     const hanging left = plan_fork(plan, fork, index + 1);
     const hanging right = plan_fork(plan, fork, f->right);
     plan[index] = divide(&left, &right, BVH_CHILDREN, &out.cost[0]);
@@ -57,8 +59,11 @@ status bvh_wide_plan(uint32_t **out_plan, const bvh_fork *fork, size_t place_cou
 
     NEED(plan, STATUS_MEMORY, "no memory for a tree of %zu forks", place_count);
     plan_fork(plan, fork, 0);
+    TRY(interrupt_check());
     *out_plan = plan;
+    plan = NULL;
 out:
+    free(plan);
     return rc;
 }
 

@@ -1,4 +1,5 @@
 #include "conduction.h"
+#include "vector.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -25,11 +26,6 @@ static void subtract(const float a[3], const float b[3], double out[3])
     for (int i = 0; i < 3; i++) out[i] = (double)a[i] - (double)b[i];
 }
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Length of edge k, and how far the facet's centre is from it. */
 static double edge_of(const geometry *g, uint32_t facet, int k, double *out_reach_m)
 {
@@ -39,11 +35,11 @@ static double edge_of(const geometry *g, uint32_t facet, int k, double *out_reac
     double along[3], away[3], length_m, across, height_m = 0.0;
 
     subtract(to, from, along);
-    length_m = sqrt(dot(along, along));
+    length_m = vector_length(along);
     for (int i = 2; i < corners; i++) {
         subtract(g->position[c[(k + i) % corners]], from, away);
-        across = dot(away, along) / length_m;
-        height_m += sqrt(fmax(0.0, dot(away, away) - across * across));
+        across = vector_dot(away, along) / length_m;
+        height_m += sqrt(fmax(0.0, vector_dot(away, away) - across * across));
     }
     /* The circumcentre lies (w / 2) cot(angle before the edge) away: negative beyond a blunt one. */
     *out_reach_m = corners == 3 ? across * (across - length_m) / (2.0 * height_m) + 0.5 * height_m

@@ -177,20 +177,22 @@ out:
     return rc;
 }
 
-static status write_page(output_file *place, const curve *c)
+static status draw_page(picture *pic, const void *self)
 {
     status rc = STATUS_OK;
+    const curve *c = self;
     const axes a = axes_of(c);
-    picture *pic = NULL;
 
-    TRY(picture_create(&pic, PAGE_WIDTH, PAGE_HEIGHT));
     TRY(draw_axes(pic, &a, c->x_unit));
     for (size_t k = 0; k < c->line_count; k++) draw_line(pic, &a, c, &c->line[k]);
     TRY(draw_names(pic, c));
-    TRY(picture_write(pic, place));
 out:
-    picture_free(pic);
     return rc;
+}
+
+static status write_page(output_file *place, const curve *c)
+{
+    return picture_write(place, PAGE_WIDTH, PAGE_HEIGHT, draw_page, c);
 }
 
 status curve_write(const char *path, const curve *c)

@@ -1,19 +1,9 @@
 #include "facet_range.h"
 
 #include "polygon.h"
+#include "vector.h"
 
 #include <math.h>
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(double out[3], const double a[3], const double b[3])
-{
-    for (int k = 0; k < 3; k++)
-        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
 
 /* Finds the range to the plane of a triangle; returns the least weight of its vertices there, below
  * 0 outside, NAN where the ray is parallel to it. Moeller, Trumbore 1997. */
@@ -27,11 +17,12 @@ static double meet(const float *a, const float *b, const float *c, const double 
         v[k] = (double)c[k] - (double)a[k];
         s[k] = ray[k] - (double)a[k];
     }
-    cross(p, ray + 3, v);
-    cross(q, s, u);
-    const double determinant = dot(u, p);
-    const double first = dot(s, p) / determinant, second = dot(ray + 3, q) / determinant;
-    *out_range = dot(v, q) / determinant;
+    vector_cross(ray + 3, v, p);
+    vector_cross(s, u, q);
+    const double determinant = vector_dot(u, p);
+    const double first = vector_dot(s, p) / determinant,
+                 second = vector_dot(ray + 3, q) / determinant;
+    *out_range = vector_dot(v, q) / determinant;
     return determinant == 0 ? (double)NAN : fmin(1 - first - second, fmin(first, second));
 }
 

@@ -1,5 +1,8 @@
 #include "facet_shape.h"
 
+#include "interrupt.h"
+#include "vector.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -54,7 +57,7 @@ static void set_facet(geometry *g, uint32_t facet, const double (*position)[3])
     double a[3], azimuth;
 
     area_vector(g, facet, position, a);
-    const double area = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    const double area = vector_length(a);
     const float stored_m2 = (float)area;
     const bool has_area = isfinite(stored_m2) && stored_m2 > 0.0f;
     for (int k = 0; k < 3; k++) g->normal[facet][k] = has_area ? (float)(a[k] / area) : 0.0f;
@@ -78,7 +81,10 @@ status facet_shape_set(geometry *g, const double (*position)[3])
     set_origin(g, position);
     for (uint32_t i = 0; i < g->vertex_count; i++)
         for (int k = 0; k < 3; k++) g->position[i][k] = (float)(position[i][k] - g->origin_m[k]);
-    for (uint32_t i = 0; i < g->facet_count; i++) set_facet(g, i, position);
+    for (uint32_t i = 0; i < g->facet_count; i++) {
+        TRY(interrupt_check());
+        set_facet(g, i, position);
+    }
 out:
     return rc;
 }

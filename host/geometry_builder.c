@@ -2,6 +2,7 @@
 
 #include "array.h"
 #include "facet_shape.h"
+#include "interrupt.h"
 #include "mesh_connect.h"
 #include "name_table.h"
 #include "polygon.h"
@@ -205,6 +206,7 @@ status geometry_builder_add_face(geometry_builder *builder, const geometry_sourc
     status rc = STATUS_OK;
     uint32_t few[4], *corner = few;
 
+    TRY(interrupt_check());
     TRY(find_part(builder, face));
     TRY(find_material(builder, face, path));
     if (face->corner_count > 4) corner = malloc(face->corner_count * sizeof *corner);

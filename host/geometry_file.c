@@ -2,8 +2,10 @@
 
 #include "array.h"
 #include "constants.h"
+#include "interrupt.h"
 #include "number.h"
 #include "output_file.h"
+#include "vector.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -41,11 +43,6 @@ static void to_1994(const double in[3], double out[3])
     out[0] = in[1];
     out[1] = -in[0];
     out[2] = in[2];
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /* Makes room for `more` items after `count`. */
@@ -209,7 +206,7 @@ static double polygon_normal(const double *position, uint32_t count, double out[
         out[0] += 0.5 * (from[1] * edge[2] - from[2] * edge[1]);
         out[1] += 0.5 * (from[2] * edge[0] - from[0] * edge[2]);
         out[2] += 0.5 * (from[0] * edge[1] - from[1] * edge[0]);
-        longest = fmax(longest, dot(edge, edge));
+        longest = fmax(longest, vector_dot(edge, edge));
     }
     return longest;
 }
@@ -230,8 +227,8 @@ static void turn_outward(reading *r, const geometry_facet *f, int normal_line)
 {
     double *position = &r->out->position_m[3 * (size_t)f->first_vertex], normal[3];
     const double longest = polygon_normal(position, f->vertex_count, normal);
-    const double area = sqrt(dot(normal, normal)), printed = sqrt(dot(f->normal, f->normal));
-    const double along = dot(normal, f->normal);
+    const double area = vector_length(normal), printed = vector_length(f->normal);
+    const double along = vector_dot(normal, f->normal);
 
     if (area <= AREA_TOLERANCE * longest || along <= 0.0) reverse(position, f->vertex_count);
     if (area <= AREA_TOLERANCE * longest) return;
@@ -287,8 +284,10 @@ status geometry_file_read(geometry_file **out, const char *path)
     NEED(r.out, STATUS_MEMORY, "geometry");
     TRY(record_file_open(&r.file, path));
     r.out->source = r.file;
-    do TRY(read_block(&r));
-    while (!record_file_at_end(r.file));
+    do {
+        TRY(interrupt_check());
+        TRY(read_block(&r));
+    } while (!record_file_at_end(r.file));
     NEED(r.out->facet_count > 0, STATUS_FORMAT, "%s:%d: the file ends, expected FACE", path,
          record_file_line(r.file) + 1);
     if (r.off_count)

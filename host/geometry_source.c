@@ -1,6 +1,8 @@
 #include "geometry_source.h"
 
+#include "cancel.h"
 #include "geometry_file.h"
+#include "interrupt.h"
 #include "mesh_file.h"
 
 #include <stdlib.h>
@@ -33,6 +35,7 @@ status geometry_source_read(geometry_source **out, const char *path)
     geometry_source *source = calloc(1, sizeof *source);
 
     NEED(source, STATUS_MEMORY, "%s: no memory to read it", path);
+    cancel_ask(interrupt_is_set);
     if (extension && !strcasecmp(extension, ".gdb"))
         TRY(read_geometry_file(source, path));
     else

@@ -2,6 +2,7 @@
 
 #include "image_file.h"
 #include "image_header.h"
+#include "interrupt.h"
 #include "value_range.h"
 
 #include <assert.h>
@@ -174,7 +175,6 @@ typedef struct exr_texts {
     image_text *text; /* shape (count); owns keys and values */
     size_t count;
     exr_name *spectral; /* names of spectral channels */
-    float *colour;      /* red, green and blue beside them */
 } exr_texts;
 
 static void exr_texts_free(exr_texts *texts)
@@ -184,7 +184,6 @@ static void exr_texts_free(exr_texts *texts)
         free((char *)texts->text[i].value);
     }
     free(texts->text);
-    free(texts->colour);
     free(texts->spectral);
 }
 
@@ -273,25 +272,18 @@ out:
 /* A picture for viewers that know no spectra: the last, middle and first plane as red, green and blue,
  * each from 0 to 1 over its range.
  *   out   shape (3) */
-static status add_colours(exr_texts *to, image *img, image_channel *out)
+static status add_colours(image *img, image_channel *out)
 {
     status rc = STATUS_OK;
     static const char *const names[3] = {"R", "G", "B"};
     const size_t pixels = (size_t)img->columns * img->rows, last = img->plane_count - 1;
     const size_t plane[3] = {last, last / 2, 0};
 
-    to->colour = malloc(3 * pixels * sizeof *to->colour);
-    NEED(to->colour, STATUS_MEMORY, "no memory for the colours of %zu pixels", pixels);
     for (int c = 0; c < 3; c++) {
-        const float *from = image_values(img, plane[c]);
-        float *colour = to->colour + (size_t)c * pixels;
+        const float *value = image_values(img, plane[c]);
         value_range range;
-        TRY(value_range_find(&range, from, pixels, IMAGE_NO_DATA));
-        for (size_t i = 0; i < pixels; i++) {
-            const double share = ((double)from[i] - range.min) / (range.max - range.min);
-            colour[i] = (float)fmin(fmax(share, 0.0), 1.0);
-        }
-        out[c] = (image_channel){names[c], colour};
+        TRY(value_range_find(&range, value, pixels, IMAGE_NO_DATA));
+        out[c] = (image_channel){names[c], value, range.min, range.max};
     }
 out:
     return rc;
@@ -311,13 +303,13 @@ static status add_channels(exr_texts *to, image_channel **out, size_t *out_count
         const bool spectral = !to->spectral && is_spectral(img[i]);
         if (spectral) {
             TRY(name_spectral(to, img[i]));
-            TRY(add_colours(to, img[i], channel + count));
+            TRY(add_colours(img[i], channel + count));
             count += 3;
         }
         for (size_t p = 0; p < img[i]->plane_count; p++, c++) {
             const image_plane *plane = &img[i]->plane[p];
             const char *name = spectral ? to->spectral[p] : plane->name;
-            channel[c] = (image_channel){name, image_values(img[i], p)};
+            channel[c] = (image_channel){.name = name, .value = image_values(img[i], p)};
             if (plane->unit[0]) TRY(add_text(to, "unit.", name, plane->unit));
         }
     }
@@ -342,7 +334,8 @@ status image_write_exr(output_folder *folder, const char *name, image *const *im
     TRY(add_header(&texts, header));
     TRY(add_channels(&texts, &channel, &channel_count, img, image_count));
     TRY(output_folder_add(folder, name, &place));
-    const image_frame frame = {img[0]->columns, img[0]->rows, texts.text, texts.count};
+    const image_frame frame = {img[0]->columns, img[0]->rows, texts.text, texts.count,
+                               interrupt_is_set};
     NEED(image_file_write_exr(output_file_stream(place), output_file_path(place), &frame, channel,
                               channel_count, IMAGE_ZIP, message, sizeof message) == 0,
          STATUS_FILE, "%s", message);

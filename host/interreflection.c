@@ -60,8 +60,8 @@ static status open_chunk(const interreflection *f, chunk *c, uint32_t first, uin
     const uint32_t cells = shape_factor_cell_count(f->from.grid);
     hit_record *hits = malloc(count * sizeof *hits);
 
-    NEED(hits, STATUS_MEMORY, "no memory for %u facets", count);
     *c = (chunk){.first = first, .last_depth = 1, .points.count = count};
+    NEED(hits, STATUS_MEMORY, "no memory for %u facets", count);
     for (uint32_t i = 0; i < count; i++) hits[i] = middle(f->from.shape, first + i);
     TRY(device_allocate(device_of(f), &c->points.hit, count, hits));
     TRY(device_allocate(device_of(f), &c->points.met, (size_t)count * cells, NULL));
@@ -84,7 +84,7 @@ static status cast_rays(const interreflection *f, const chunk *c,
                             background);
 }
 
-/* Keeps a chunk where a facet of it passes light on: what it reflects of the share of its hemisphere
+/* Keeps the last chunk where a facet of it passes light on: what it reflects of the share of its hemisphere
  * that facets fill.
  *   reach   shape (facet_count): set to that */
 static status sort_chunk(interreflection *f, chunk *c, const background_record *records,
@@ -100,9 +100,9 @@ static status sort_chunk(interreflection *f, chunk *c, const background_record *
     }
     if (!passes || wanted == 1) {
         free_chunk(c);
+        f->chunk_count--;
         goto out;
     }
-    f->chunk_count++;
     TRY(device_allocate(device_of(f), &c->arriving,
                         (size_t)c->points.count * 2 * f->spectra.sample_count, NULL));
 out:
@@ -122,7 +122,7 @@ static status look_around(interreflection *f, const float *reflectance, uint32_t
     NEED(records && f->chunks, STATUS_MEMORY, "no memory for %u facets", count);
     TRY(device_allocate(device_of(f), &background, CHUNK, NULL));
     for (uint32_t first = 0; first < count; first += CHUNK) {
-        chunk *c = &f->chunks[f->chunk_count];
+        chunk *c = &f->chunks[f->chunk_count++];
         TRY(open_chunk(f, c, first, count - first < CHUNK ? count - first : CHUNK));
         TRY(cast_rays(f, c, background));
         TRY(device_download(device_of(f), background, c->points.count, records + first));
@@ -234,8 +234,11 @@ static radiometry_record frame_of(const interreflection *f, const radiometry_rec
 static status write_light(const interreflection *f, const radiometry_record *frame,
                           hit_record_buffer hit, float_buffer arriving)
 {
+    device_shape shape = shape1(frame->pixel_count);
+
+    shape.item_s = 1e-8 * frame->sample_count;
     return interreflection_run(
-        device_of(f), shape1(frame->pixel_count),
+        device_of(f), shape,
         &(interreflection_args){.frame = *frame,
                                 .hit = hit,
                                 .surface = f->from.surfaces,

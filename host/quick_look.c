@@ -1,6 +1,7 @@
 #include "quick_look.h"
 
 #include "colour_map.h"
+#include "interrupt.h"
 #include "picture.h"
 #include "value_range.h"
 
@@ -114,8 +115,9 @@ static size_t note_number(float *number, size_t count, float value)
 }
 
 /* The numbers that occur, with their names; what a long list leaves out becomes `...`. */
-static void list_labels(layout *lay)
+static status list_labels(layout *lay)
 {
+    status rc = STATUS_OK;
     const quick_look *look = lay->look;
     const size_t pixels = (size_t)look->columns * look->rows;
     float number[NUMBERS], last = IMAGE_NO_DATA;
@@ -124,6 +126,7 @@ static void list_labels(layout *lay)
 
     for (size_t i = 0; i < pixels; i++) {
         const float value = look->value[i];
+        if (i % look->columns == 0) TRY(interrupt_check());
         if (!isfinite(value) || value == last || value == IMAGE_NO_DATA) continue;
         count = note_number(number, count, value);
         last = value;
@@ -145,6 +148,8 @@ static void list_labels(layout *lay)
         snprintf(to->text, sizeof to->text, "...");
         memset(to->rgb, 255, 3);
     }
+out:
+    return rc;
 }
 
 static uint32_t bar_height(const layout *lay)
@@ -167,9 +172,11 @@ static void list_ticks(layout *lay)
     }
 }
 
-static void list_beside(layout *lay)
+static status list_beside(layout *lay)
 {
-    if (lay->look->colours == QUICK_LOOK_LABELS) list_labels(lay);
+    status rc = STATUS_OK;
+
+    if (lay->look->colours == QUICK_LOOK_LABELS) TRY(list_labels(lay));
     lay->has_bar = is_bar(lay->look) && lay->range.valid_count;
     if (lay->has_bar) list_ticks(lay);
     if (lay->range.missing_count) {
@@ -177,6 +184,8 @@ static void list_beside(layout *lay)
         snprintf(to->text, sizeof to->text, "no data");
         memcpy(to->rgb, missing_rgb, 3);
     }
+out:
+    return rc;
 }
 
 static void enlarge(layout *lay)
@@ -220,7 +229,7 @@ static status arrange(layout *lay, const quick_look *look)
     snprintf(lay->subheading, sizeof lay->subheading, "%s, %.10s %.8s UTC", look->scene, look->time,
              strlen(look->time) > 11 ? look->time + 11 : "");
     lay->side_height = lay->height > SHORTEST_BAR ? lay->height : SHORTEST_BAR;
-    list_beside(lay);
+    TRY(list_beside(lay));
     if (!lay->has_bar && lay->legend_count * LINE > lay->side_height)
         lay->side_height = lay->legend_count * LINE;
     lay->top = MARGIN + HEADING_SIZE + LINE + GAP;
@@ -248,9 +257,12 @@ static void draw_pixels(picture *pic, const layout *lay)
     const quick_look *look = lay->look;
     uint8_t rgb[3] = {0};
     float last = NAN;
+    uint32_t end;
+    const uint32_t first = picture_rows(pic, &end);
 
     draw_frame(pic, MARGIN, lay->top, lay->width, lay->height);
-    for (uint32_t row = 0; row < look->rows; row++)
+    for (uint32_t row = first > lay->top ? (first - lay->top) / lay->factor : 0;
+         row < look->rows && lay->top + row * lay->factor < end; row++)
         for (uint32_t column = 0; column < look->columns; column++) {
             const float value = look->value[(size_t)row * look->columns + column];
             if (value != last) colour_of(lay, value, rgb);
@@ -298,25 +310,31 @@ out:
     return rc;
 }
 
-status quick_look_write(output_folder *folder, const char *name, const quick_look *look)
+static status draw_page(picture *pic, const void *self)
 {
     status rc = STATUS_OK;
-    output_file *place = NULL;
-    picture *pic = NULL;
-    layout *lay = calloc(1, sizeof *lay);
+    const layout *lay = self;
 
-    NEED(lay, STATUS_MEMORY, "%s: no memory to draw it", name);
-    TRY(arrange(lay, look));
-    TRY(picture_create(&pic, lay->page_width, lay->page_height));
     TRY(picture_text(pic, MARGIN, MARGIN + HEADING_SIZE - 3, lay->heading, HEADING_SIZE));
     TRY(picture_text(pic, MARGIN, MARGIN + HEADING_SIZE + LINE - 4, lay->subheading, TEXT_SIZE));
     draw_pixels(pic, lay);
     if (lay->has_bar) TRY(draw_bar(pic, lay));
     TRY(draw_legend(pic, lay));
-    TRY(output_folder_add(folder, name, &place));
-    TRY(picture_write(pic, place));
 out:
-    picture_free(pic);
+    return rc;
+}
+
+status quick_look_write(output_folder *folder, const char *name, const quick_look *look)
+{
+    status rc = STATUS_OK;
+    output_file *place = NULL;
+    layout *lay = calloc(1, sizeof *lay);
+
+    NEED(lay, STATUS_MEMORY, "%s: no memory to draw it", name);
+    TRY(arrange(lay, look));
+    TRY(output_folder_add(folder, name, &place));
+    TRY(picture_write(place, lay->page_width, lay->page_height, draw_page, lay));
+out:
     free(lay);
     return rc;
 }

@@ -1,6 +1,7 @@
 #include "record_file.h"
 
 #include "input_file.h"
+#include "interrupt.h"
 #include "number.h"
 
 #include <ctype.h>
@@ -9,6 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { PORTION = 1 << 24 }; /* bytes that are read at once */
 
 struct record_file {
     char *path, *text;
@@ -30,7 +33,12 @@ static status read_whole(record_file *file)
          STATUS_FILE, "%s", message);
     file->text = malloc(size + 1);
     NEED(file->text, STATUS_MEMORY, "%s: no memory to read it", file->path);
-    NEED(fread(file->text, 1, size, stream) == size, STATUS_FILE, "%s: cannot be read", file->path);
+    for (size_t at = 0; at < size; at += PORTION) {
+        const size_t wanted = size - at < PORTION ? size - at : PORTION;
+        TRY(interrupt_check());
+        NEED(fread(file->text + at, 1, wanted, stream) == wanted, STATUS_FILE, "%s: cannot be read",
+             file->path);
+    }
     file->text[size] = '\0';
     NEED(strlen(file->text) == size, STATUS_FILE, "%s: is binary, expected text", file->path);
 out:
@@ -92,6 +100,7 @@ status record_file_text(record_file *file, const char **out_text, const char *ex
     status rc = STATUS_OK;
     char *end;
 
+    TRY(interrupt_check());
     skip_blank_lines(file);
     NEED(*file->next, STATUS_FORMAT, "%s:%d: the file ends, expected %s", file->path,
          file->next_line, expected);

@@ -1,5 +1,7 @@
 #include "render_report.h"
 
+#include "json_text.h"
+
 #include <errno.h>
 #include <math.h>
 #include <sha256.h>
@@ -8,238 +10,172 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* The document being written; `depth` counts what is open. */
-typedef struct json {
-    FILE *file;
-    int depth;
-    bool empty; /* nothing stands yet in what was opened last */
-} json;
+enum { LEAST_DIGITS = 15 };
 
-/* Bytes of the UTF-8 character that begins here; 0 if none does. */
-static size_t character_length(const unsigned char *text)
+/* Adds a value; where memory ends the list becomes NULL, and so does all that is made of it. */
+static void append(json_t **list, json_t *value)
 {
-    const size_t length = text[0] < 0x80             ? 1
-                          : (text[0] & 0xe0) == 0xc0 ? 2
-                          : (text[0] & 0xf0) == 0xe0 ? 3
-                          : (text[0] & 0xf8) == 0xf0 ? 4
-                                                     : 0;
-
-    for (size_t i = 1; i < length; i++)
-        if ((text[i] & 0xc0) != 0x80) return 0;
-    return length;
+    if (json_array_append_new(*list, value) == 0) return;
+    json_decref(*list);
+    *list = NULL;
 }
 
-static void put_character(FILE *file, const unsigned char *text, size_t length)
+static void set(json_t **object, const char *key, json_t *value)
 {
-    if (length == 0)
-        fputs("\\ufffd", file);
-    else if (text[0] == '"' || text[0] == '\\')
-        fprintf(file, "\\%c", text[0]);
-    else if (text[0] < ' ' || text[0] == 0x7f)
-        fprintf(file, "\\u%04x", text[0]);
-    else
-        fwrite(text, 1, length, file);
+    if (json_object_set_new(*object, key, value) == 0) return;
+    json_decref(*object);
+    *object = NULL;
 }
 
-static void put_string(FILE *file, const char *text)
+static json_t *site_of(const render_report *report, size_t *digits)
 {
-    const unsigned char *byte = (const unsigned char *)text;
+    json_t *object = json_object();
 
-    if (!text) {
-        fputs("null", file);
-        return;
-    }
-    fputc('"', file);
-    while (*byte) {
-        const size_t length = character_length(byte);
-        put_character(file, byte, length);
-        byte += length ? length : 1;
-    }
-    fputc('"', file);
+    set(&object, "latitude_deg", json_text_number(report->latitude_deg, digits));
+    set(&object, "longitude_deg", json_text_number(report->longitude_deg, digits));
+    set(&object, "altitude_m", json_text_number(report->altitude_m, digits));
+    return object;
 }
 
-/* The fewest digits that read back as the same number. */
-static void put_number(FILE *file, double value)
+static json_t *device_of(const render_report *report)
 {
-    char text[40];
-
-    if (!isfinite(value)) {
-        fputs("null", file);
-        return;
-    }
-    for (int digits = 6; digits <= 17; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, value);
-        if (strtod(text, NULL) == value) break;
-    }
-    fputs(text, file);
+    return json_pack("{s:o, s:o, s:o}", "platform", json_text(report->platform), "name",
+                     json_text(report->device), "version", json_text(report->device_version));
 }
 
-/* Begins the next member of an object, or of an array if key is NULL. */
-static void begin_member(json *to, const char *key)
+static json_t *bands_of(const render_report *report, size_t *digits)
 {
-    fprintf(to->file, "%s\n%*s", to->empty ? "" : ",", 2 * to->depth, "");
-    to->empty = false;
-    if (!key) return;
-    put_string(to->file, key);
-    fputs(": ", to->file);
-}
+    json_t *list = json_array();
 
-static void open_group(json *to, const char *key, char mark)
-{
-    begin_member(to, key);
-    fputc(mark, to->file);
-    to->depth++;
-    to->empty = true;
-}
-
-static void close_group(json *to, char mark)
-{
-    to->depth--;
-    if (!to->empty) fprintf(to->file, "\n%*s", 2 * to->depth, "");
-    fputc(mark, to->file);
-    to->empty = false;
-}
-
-static void add_string(json *to, const char *key, const char *text)
-{
-    begin_member(to, key);
-    put_string(to->file, text);
-}
-
-static void add_number(json *to, const char *key, double value)
-{
-    begin_member(to, key);
-    put_number(to->file, value);
-}
-
-static void add_scene(json *to, const render_report *report)
-{
-    add_string(to, "program", "radsig " RADSIG_VERSION);
-    add_string(to, "scene", report->scene);
-    add_string(to, "scene_path", report->scene_path);
-    add_string(to, "mode", report->mode);
-    add_string(to, "thermal", report->thermal);
-    add_string(to, "time", report->time);
-    open_group(to, "site", '{');
-    add_number(to, "latitude_deg", report->latitude_deg);
-    add_number(to, "longitude_deg", report->longitude_deg);
-    add_number(to, "altitude_m", report->altitude_m);
-    close_group(to, '}');
-    open_group(to, "device", '{');
-    add_string(to, "platform", report->platform);
-    add_string(to, "name", report->device);
-    add_string(to, "version", report->device_version);
-    close_group(to, '}');
-    open_group(to, "image", '{');
-    add_number(to, "columns", report->columns);
-    add_number(to, "rows", report->rows);
-    close_group(to, '}');
-}
-
-static void add_bands(json *to, const render_report *report)
-{
-    open_group(to, "bands", '[');
     for (size_t i = 0; i < report->band_count; i++) {
         const render_report_band *band = &report->band[i];
-        open_group(to, NULL, '{');
-        add_string(to, "name", band->name);
-        add_number(to, "wavelength_min_um", band->wavelength_min_um);
-        add_number(to, "wavelength_max_um", band->wavelength_max_um);
-        add_number(to, "gain", band->gain);
-        add_number(to, "offset", band->offset);
-        close_group(to, '}');
+        json_t *object = json_object();
+        set(&object, "name", json_text(band->name));
+        set(&object, "wavelength_min_um", json_text_number(band->wavelength_min_um, digits));
+        set(&object, "wavelength_max_um", json_text_number(band->wavelength_max_um, digits));
+        set(&object, "gain", json_text_number(band->gain, digits));
+        set(&object, "offset", json_text_number(band->offset, digits));
+        append(&list, object);
     }
-    close_group(to, ']');
+    return list;
 }
 
-static void add_planes(json *to, const render_report *report)
+static json_t *planes_of(const render_report *report)
 {
-    open_group(to, "planes", '[');
+    json_t *list = json_array();
+
     for (size_t i = 0; i < report->plane_count; i++) {
-        const char *unit = report->plane[i].unit;
-        open_group(to, NULL, '{');
-        add_string(to, "name", report->plane[i].name);
-        add_string(to, "unit", unit && unit[0] ? unit : NULL);
-        close_group(to, '}');
+        const image_plane *plane = &report->plane[i];
+        const char *unit = plane->unit && plane->unit[0] ? plane->unit : NULL;
+        append(&list,
+               json_pack("{s:o, s:o}", "name", json_text(plane->name), "unit", json_text(unit)));
     }
-    close_group(to, ']');
-    open_group(to, "materials", '[');
-    for (size_t i = 0; i < report->material_count; i++) {
-        open_group(to, NULL, '{');
-        add_number(to, "number", report->material[i].number);
-        add_string(to, "name", report->material[i].name);
-        close_group(to, '}');
-    }
-    close_group(to, ']');
+    return list;
 }
 
-static void add_settings_and_inputs(json *to, const render_report *report)
+static json_t *materials_of(const render_report *report)
 {
-    open_group(to, "settings", '{');
+    json_t *list = json_array();
+
+    for (size_t i = 0; i < report->material_count; i++) {
+        const image_label *material = &report->material[i];
+        append(&list, json_pack("{s:I, s:o}", "number", (json_int_t)material->number, "name",
+                                json_text(material->name)));
+    }
+    return list;
+}
+
+static json_t *settings_of(const render_report *report, size_t *digits)
+{
+    json_t *object = json_object();
+
     for (size_t i = 0; i < report->setting_count; i++) {
         const render_report_setting *setting = &report->setting[i];
-        if (setting->text)
-            add_string(to, setting->key, setting->text);
-        else
-            add_number(to, setting->key, setting->number);
+        set(&object, setting->key,
+            setting->text ? json_text(setting->text) : json_text_number(setting->number, digits));
     }
-    close_group(to, '}');
-    open_group(to, "inputs", '[');
+    return object;
+}
+
+static json_t *inputs_of(const render_report *report)
+{
+    json_t *list = json_array();
+
     for (size_t i = 0; i < report->input_count; i++) {
         const render_report_input *input = &report->input[i];
-        open_group(to, NULL, '{');
-        add_string(to, "path", input->path);
-        add_string(to, "sha256", input->sha256);
-        begin_member(to, "bytes");
-        fprintf(to->file, "%llu", (unsigned long long)input->bytes);
-        close_group(to, '}');
+        append(&list, json_pack("{s:o, s:s, s:I}", "path", json_text(input->path), "sha256",
+                                input->sha256, "bytes", (json_int_t)input->bytes));
     }
-    close_group(to, ']');
+    return list;
 }
 
-static status add_warnings(json *to, const char *warnings)
+/* A string a line. */
+static json_t *warnings_of(const render_report *report)
 {
-    status rc = STATUS_OK;
-    char *next = NULL, *copy = strdup(warnings ? warnings : "");
+    json_t *list = json_array();
+    char *next = NULL, *copy = strdup(report->warnings ? report->warnings : "");
 
-    NEED(copy, STATUS_MEMORY, "no memory for the warnings");
-    open_group(to, "warnings", '[');
-    for (char *line = strtok_r(copy, "\n", &next); line; line = strtok_r(NULL, "\n", &next))
-        add_string(to, NULL, line);
-    close_group(to, ']');
-out:
+    if (!copy) append(&list, NULL);
+    for (char *line = copy ? strtok_r(copy, "\n", &next) : NULL; line;
+         line = strtok_r(NULL, "\n", &next))
+        append(&list, json_text(line));
     free(copy);
-    return rc;
+    return list;
 }
 
-static void add_timings(json *to, const render_report *report)
+/* Seconds to a tenth of a millisecond. */
+static json_t *timings_of(const render_report *report, size_t *digits)
 {
-    open_group(to, "timings_s", '{');
+    json_t *object = json_object();
+
     for (size_t i = 0; i < report->stage_count; i++) {
-        begin_member(to, report->stage[i].name);
-        fprintf(to->file, "%.4f", report->stage[i].seconds);
+        const render_report_stage *stage = &report->stage[i];
+        set(&object, stage->name, json_text_number(round(1e4 * stage->seconds) / 1e4, digits));
     }
-    close_group(to, '}');
+    return object;
+}
+
+/* The whole document, its members in this order; NULL if memory ended.
+ *   digits   raised to what its numbers need */
+static json_t *document_of(const render_report *report, size_t *digits)
+{
+    json_t *object = json_object();
+
+    set(&object, "program", json_string("radsig " RADSIG_VERSION));
+    set(&object, "scene", json_text(report->scene));
+    set(&object, "scene_path", json_text(report->scene_path));
+    set(&object, "mode", json_text(report->mode));
+    set(&object, "thermal", json_text(report->thermal));
+    set(&object, "time", json_text(report->time));
+    set(&object, "site", site_of(report, digits));
+    set(&object, "device", device_of(report));
+    set(&object, "image",
+        json_pack("{s:I, s:I}", "columns", (json_int_t)report->columns, "rows",
+                  (json_int_t)report->rows));
+    set(&object, "bands", bands_of(report, digits));
+    set(&object, "planes", planes_of(report));
+    set(&object, "materials", materials_of(report));
+    set(&object, "settings", settings_of(report, digits));
+    set(&object, "inputs", inputs_of(report));
+    set(&object, "warnings", warnings_of(report));
+    set(&object, "timings_s", timings_of(report, digits));
+    return object;
 }
 
 status render_report_write(output_folder *folder, const char *name, const render_report *report)
 {
     status rc = STATUS_OK;
-    output_file *place = NULL;
-    json to = {.depth = 1, .empty = true};
+    output_file *file = NULL;
+    size_t digits = LEAST_DIGITS;
+    json_t *document = document_of(report, &digits);
 
-    TRY(output_folder_add(folder, name, &place));
-    to.file = output_file_stream(place);
-    fputc('{', to.file);
-    add_scene(&to, report);
-    add_bands(&to, report);
-    add_planes(&to, report);
-    add_settings_and_inputs(&to, report);
-    TRY(add_warnings(&to, report->warnings));
-    add_timings(&to, report);
-    fputs("\n}\n", to.file);
-    TRY(output_file_close(place));
+    NEED(document, STATUS_MEMORY, "%s: no memory for the report", name);
+    TRY(output_folder_add(folder, name, &file));
+    json_dumpf(document, output_file_stream(file), JSON_INDENT(2) | JSON_REAL_PRECISION(digits));
+    fputc('\n', output_file_stream(file));
+    TRY(output_file_close(file));
 out:
+    json_decref(document);
     return rc;
 }
 

@@ -50,8 +50,8 @@ typedef struct render_report {
     size_t stage_count;
 } render_report;
 
-/* Writes the file `name`. Numbers read back as they were; one that is not finite is null. A byte
- * that is no UTF-8 becomes U+FFFD. */
+/* Writes the file `name`. Numbers read back as they were; one that is not finite is null. A text that
+ * is not UTF-8 is taken for Latin-1. */
 status render_report_write(output_folder *folder, const char *name, const render_report *report);
 
 /* SHA-256 of a file in hexadecimal digits, and its size. */

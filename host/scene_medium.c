@@ -1,4 +1,5 @@
 #include "scene_parts.h"
+#include "vector.h"
 
 #include <math.h>
 
@@ -61,7 +62,7 @@ static void check_body(scene_reader *reader, const scene_material *m)
     double volume, gap[3], area;
 
     measure(s, material, &volume, gap, &area);
-    if (sqrt(gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2]) > 1e-4 * area)
+    if (vector_length(gap) > 1e-4 * area)
         scene_fail(reader, NULL,
                    "material %s: is transmissive, but its facets do not close: expected surfaces "
                    "without holes",

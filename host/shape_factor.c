@@ -121,7 +121,7 @@ uint32_t shape_factor_part_of(uint32_t cell, uint32_t parts)
     return (cell * golden >> 16) * parts >> 16;
 }
 
-/* Opens those cells of a grid for which `weighs` is above 0, their weights times that. */
+/* Opens those cells of a grid for which `weighs` is above 0, their weights times that, as one ring. */
 static status open_some(shape_factor_grid **out, device *dev, const shape_factor_grid *grid,
                         const float *weighs)
 {
@@ -136,6 +136,7 @@ static status open_some(shape_factor_grid **out, device *dev, const shape_factor
         memmove(cell[some->cell_count], cell[i], sizeof *cell);
         cell[some->cell_count++][3] *= weighs[i];
     }
+    some->azimuths = some->cell_count;
     TRY(device_allocate(dev, &some->cell, 4 * some->cell_count, cell[0]));
     *out = some;
     some = NULL;
@@ -172,6 +173,7 @@ status shape_factor_open_thinned(shape_factor_grid **out, device *dev,
     for (uint32_t i = 0; i < grid->cell_count; i++)
         weighs[i] = (i % n + step / 2 * (i / n)) % step == 0 ? (float)step : 0.0f;
     TRY(open_some(out, dev, grid, weighs));
+    (*out)->azimuths = n / step;
 out:
     free(weighs);
     return rc;

@@ -1,5 +1,7 @@
 #include "value_range.h"
 
+#include "interrupt.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -41,34 +43,75 @@ static uint32_t find_bin(const size_t *bin, size_t *rank)
     return i;
 }
 
-/* The rank-th smallest valid value, by counting its upper and then its lower half. */
-static float select_rank(const float *value, size_t count, float no_data, size_t rank, size_t *bin)
-{
-    memset(bin, 0, HALF * sizeof *bin);
-    for (size_t i = 0; i < count; i++)
-        if (is_valid(value[i], no_data)) bin[key_of(value[i]) >> 16]++;
-    const uint32_t upper = find_bin(bin, &rank);
+/* Values that are looked at between two looks at the interrupt. */
+enum { PORTION = 1 << 20 };
 
-    memset(bin, 0, HALF * sizeof *bin);
-    for (size_t i = 0; i < count; i++)
-        if (is_valid(value[i], no_data) && key_of(value[i]) >> 16 == upper)
-            bin[key_of(value[i]) & (HALF - 1)]++;
-    return value_of(upper << 16 | find_bin(bin, &rank));
+typedef struct values {
+    const float *value; /* shape (count) */
+    size_t count;
+    float no_data;
+} values;
+
+/* Counts the lower halves of the valid values whose upper half is `upper`, or of all the upper halves.
+ *   upper     HALF: of all
+ *   out_bin   shape (HALF) */
+static status count_halves(size_t *out_bin, const values *v, uint32_t upper)
+{
+    status rc = STATUS_OK;
+
+    memset(out_bin, 0, HALF * sizeof *out_bin);
+    for (size_t i = 0; i < v->count; i++) {
+        if (i % PORTION == 0) TRY(interrupt_check());
+        if (!is_valid(v->value[i], v->no_data)) continue;
+        const uint32_t key = key_of(v->value[i]);
+        if (upper == HALF)
+            out_bin[key >> 16]++;
+        else if (key >> 16 == upper)
+            out_bin[key & (HALF - 1)]++;
+    }
+out:
+    return rc;
+}
+
+/* The rank-th smallest valid value, by counting its upper and then its lower half. */
+static status select_rank(double *out, const values *v, size_t rank, size_t *bin)
+{
+    status rc = STATUS_OK;
+
+    TRY(count_halves(bin, v, HALF));
+    const uint32_t upper = find_bin(bin, &rank);
+    TRY(count_halves(bin, v, upper));
+    *out = (double)value_of(upper << 16 | find_bin(bin, &rank));
+out:
+    return rc;
+}
+
+static status count_valid(size_t *out, const values *v)
+{
+    status rc = STATUS_OK;
+
+    for (size_t i = 0; i < v->count; i++) {
+        if (i % PORTION == 0) TRY(interrupt_check());
+        *out += is_valid(v->value[i], v->no_data);
+    }
+out:
+    return rc;
 }
 
 status value_range_find(value_range *out, const float *value, size_t count, float no_data)
 {
     status rc = STATUS_OK;
     value_range range = {.min = 0.0, .max = 1.0};
+    const values v = {value, count, no_data};
     size_t *bin = malloc(HALF * sizeof *bin);
 
     NEED(bin, STATUS_MEMORY, "no memory for the range of a plane");
-    for (size_t i = 0; i < count; i++) range.valid_count += is_valid(value[i], no_data);
+    TRY(count_valid(&range.valid_count, &v));
     range.missing_count = count - range.valid_count;
     if (range.valid_count) {
         const size_t last = range.valid_count - 1;
-        range.min = select_rank(value, count, no_data, (size_t)round(0.005 * last), bin);
-        range.max = select_rank(value, count, no_data, (size_t)round(0.995 * last), bin);
+        TRY(select_rank(&range.min, &v, (size_t)round(0.005 * last), bin));
+        TRY(select_rank(&range.max, &v, (size_t)round(0.995 * last), bin));
         const double largest = fmax(fabs(range.min), fabs(range.max));
         if (range.max - range.min <= 1e-6 * largest) { /* no more than float32's rounding */
             const double width = largest > 0.0 ? 0.01 * largest : 0.5;

@@ -2,6 +2,7 @@
 
 #include "output_file.h"
 #include "record_file.h"
+#include "vector.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -136,16 +137,9 @@ out:
     return rc;
 }
 
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 static void normalise(double a[3])
 {
-    const double length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    const double length = vector_length(a);
 
     for (int i = 0; i < 3; i++) a[i] /= length;
 }
@@ -160,9 +154,9 @@ static void view_axes(const view *v, double sight[3], double right[3], double up
 
     for (int i = 0; i < 3; i++) sight[i] = v->target_m[i] - v->position_m[i];
     normalise(sight);
-    cross(sight, hypot(sight[0], sight[1]) > 1e-9 ? zenith : north, right);
+    vector_cross(sight, hypot(sight[0], sight[1]) > 1e-9 ? zenith : north, right);
     normalise(right);
-    cross(right, sight, up);
+    vector_cross(right, sight, up);
     for (int i = 0; i < 3; i++) {
         const double untwisted = right[i];
         right[i] = cos_twist * untwisted - sin_twist * up[i];

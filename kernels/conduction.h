@@ -17,6 +17,16 @@ typedef struct conduction_group {
     lanes sum_w_m2;                  /* of what came along the facet, over sub-steps */
 } conduction_group;
 
+/* The host, for which a lane is a float, sets aside so many bytes a facet; whole groups must fit. */
+#define CONDUCTION_FACET_BYTES 448u
+#if LANES_WIDTH == 1
+RECORD_SIZE(conduction_group, CONDUCTION_FACET_BYTES);
+#else
+typedef char conduction_group_fits[sizeof(conduction_group) <= LANES_WIDTH * CONDUCTION_FACET_BYTES
+                                       ? 1
+                                       : -1];
+#endif
+
 /* How far a patch has come, for the next launch to go on from; all 0 at first. */
 typedef struct conduction_progress {
     uint days;       /* times that the first day was begun; 0: nothing was */

@@ -3,9 +3,18 @@
 extern "C" {
 #include "input_file.h"
 }
+#include "cancel.hpp"
 #include "failure.hpp"
 
+#include <algorithm>
 #include <memory>
+
+namespace
+{
+
+const std::size_t portion = 1 << 24; /* bytes */
+
+} // namespace
 
 std::string file_text_load(const std::string &path)
 {
@@ -19,7 +28,11 @@ std::string file_text_load(const std::string &path)
         throw failure(message);
     const std::unique_ptr<FILE, int (*)(FILE *)> file(opened, std::fclose);
     text.resize(size);
-    if (std::fread(text.data(), 1, size, file.get()) != size)
-        throw failure(path + ": cannot be read");
+    for (std::size_t at = 0; at < size; at += portion) {
+        const std::size_t wanted = std::min(portion, size - at);
+        cancel_check();
+        if (std::fread(&text[at], 1, wanted, file.get()) != wanted)
+            throw failure(path + ": cannot be read");
+    }
     return text;
 }

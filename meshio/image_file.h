@@ -5,6 +5,7 @@
 #ifndef MESHIO_IMAGE_FILE_H
 #define MESHIO_IMAGE_FILE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -20,12 +21,19 @@ typedef struct image_frame {
     uint32_t width, height;
     const image_text *text; /* shape (text_count) */
     size_t text_count;
+    bool (*is_cancelled)(
+        void); /* asked before each row: true ends the writing, which fails; NULL: nobody */
 } image_frame;
 
 typedef struct image_channel {
     const char *name;   /* readers see the channels sorted by name */
     const float *value; /* shape (height, width) */
+    double low, high;   /* low < high: written as the share of the way from low to high, 0..1 */
 } image_channel;
+
+/* Gives row y of an 8-bit RGB image, shape (width, 3), valid until the next one is asked for. They are asked
+ * for from the top, each once. NULL ends the writing, which fails. */
+typedef const uint8_t *image_row_source(void *self, uint32_t y);
 
 typedef enum image_compression { IMAGE_NONE, IMAGE_ZIP } image_compression;
 
@@ -33,7 +41,8 @@ typedef enum image_compression { IMAGE_NONE, IMAGE_ZIP } image_compression;
  * otherwise be lost. Returns 0, or non-zero with `path: ...`. */
 int image_file_prepare(char *message, size_t message_size);
 
-/* Writes the channels, float32 and exact, under their names (each once), and flushes the file.
+/* Writes the channels, float32 and exact, under their names (each once), and flushes the file. Holds some
+ * rows of all channels in memory.
  *   path   names the file in the message
  * Returns 0, or non-zero with `path: ...`: disk full, no channels, a name given twice. What was
  * written then remains. */
@@ -41,9 +50,9 @@ int image_file_write_exr(FILE *file, const char *path, const image_frame *frame,
                          const image_channel *channel, size_t channel_count,
                          image_compression compression, char *message, size_t message_size);
 
-/* Writes 8-bit RGB, shape (height, width, 3). Fails as image_file_write_exr does. */
-int image_file_write_png(FILE *file, const char *path, const image_frame *frame, const uint8_t *rgb,
-                         char *message, size_t message_size);
+/* Writes 8-bit RGB row by row, of which it holds one. Fails as image_file_write_exr does. */
+int image_file_write_png(FILE *file, const char *path, const image_frame *frame,
+                         image_row_source *row, void *self, char *message, size_t message_size);
 
 /* Reads the channel called `name` of an OpenEXR file.
  *   out   shape (height, width), released by the caller with free()

@@ -32,12 +32,12 @@ extern "C" int image_file_write_exr(FILE *file, const char *path, const image_fr
 }
 
 extern "C" int image_file_write_png(FILE *file, const char *path, const image_frame *frame,
-                                    const std::uint8_t *rgb, char *message,
+                                    image_row_source *row, void *self, char *message,
                                     std::size_t message_size)
 {
     const image_plugin *image = load(message, message_size);
 
-    return image ? image->write_png(file, path, frame, rgb, message, message_size) : 1;
+    return image ? image->write_png(file, path, frame, row, self, message, message_size) : 1;
 }
 
 extern "C" int image_file_read_channel(float **out, std::uint32_t *out_width,

@@ -1,6 +1,7 @@
 extern "C" {
 #include "mesh_connect.h"
 }
+#include "cancel.hpp"
 #include "failure.hpp"
 
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
@@ -88,6 +89,7 @@ std::vector<std::uint32_t> welded(const soup_view &soup)
     };
 
     for (std::uint32_t i = 0; i < soup.vertex_count; i++) {
+        cancel_check();
         const auto word = bits(i);
         const std::uint64_t hash = XXH3_64bits(word.data(), sizeof word);
         first[i] = seen.find_or_add(
@@ -176,6 +178,7 @@ class connector
         vertex_sets sets;
 
         for (std::uint32_t i = 0; i < soup_.face_count; i++) {
+            cancel_check();
             for (std::uint32_t k = 0; k < corner_count(i); k++) sets.vertex.push_back(vertex(i, k));
             const auto begin = sets.vertex.begin() + sets.begin.back();
             std::sort(begin, sets.vertex.end());
@@ -193,6 +196,7 @@ class connector
         first_equal seen(soup_.face_count);
 
         for (std::uint32_t i = 0; i < soup_.face_count; i++) {
+            cancel_check();
             const std::uint64_t hash =
                 XXH3_64bits(set.vertex.data() + set.begin[i], set.size(i) * sizeof set.vertex[0]);
             if (!is_finite(soup_, i))
@@ -220,6 +224,7 @@ class connector
         const std::uint32_t count = corner_count(face);
         std::vector<poly_mesh::VertexHandle> ring;
 
+        cancel_check();
         for (std::uint32_t k = 0; k < count; k++)
             if (vertex(face, k) != vertex(face, (k + 1) % count))
                 ring.push_back(handle_of(vertex(face, k)));
@@ -239,6 +244,7 @@ class connector
         auto halfedge = mesh_.halfedge_handle(poly_mesh::FaceHandle(static_cast<int>(handle)));
         std::uint32_t k = 0;
 
+        cancel_check();
         while (vertex(face, k) == vertex(face, (k + 1) % count)) k++;
         while (mesh_.from_vertex_handle(halfedge) != handle_[vertex(face, k)])
             halfedge = mesh_.next_halfedge_handle(halfedge);

@@ -1,6 +1,7 @@
 /* Polygon File Format, text and binary. OpenMesh's reader keeps coordinates as floats, which moves
  * metres of a map grid by up to a quarter, makes integer coordinates of a binary file zero, and
  * takes a truncated text for a whole one. */
+#include "cancel.hpp"
 #include "failure.hpp"
 #include "mesh_soup.hpp"
 #include "mesh_text.hpp"
@@ -276,6 +277,7 @@ void mesh_ply_read(mesh_soup &soup, const std::string &path, std::string_view te
     const ply_element *vertex = find(header, "vertex"), *face = find(header, "face");
     for (const ply_element &element : header.elements)
         for (std::size_t row = 0; row < element.count; row++) {
+            cancel_check();
             if (&element == vertex)
                 read_vertex(soup, *body, element);
             else if (&element == face)

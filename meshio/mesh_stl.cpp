@@ -1,5 +1,6 @@
 /* Stereolithography, binary and text. OpenMesh's reader leaves out degenerate facets, which would
  * shift the numbers of all later ones, and takes a nan vertex for one that is there already. */
+#include "cancel.hpp"
 #include "failure.hpp"
 #include "mesh_soup.hpp"
 #include "mesh_text.hpp"
@@ -26,6 +27,7 @@ void read_binary(mesh_soup &soup, const std::string &path, std::string_view text
     for (std::uint32_t facet = 0; facet < facet_count; facet++) {
         const char *vertex =
             text.data() + header_size + facet * facet_size + 12; /* behind the normal */
+        cancel_check();
         for (int i = 0; i < 3; i++, vertex += 12) {
             float x[3];
             std::memcpy(x, vertex, sizeof x);

@@ -1,5 +1,6 @@
 #include "mesh_text.hpp"
 
+#include "cancel.hpp"
 #include "failure.hpp"
 #include "mesh_soup.hpp"
 
@@ -70,6 +71,7 @@ bool mesh_text::next(std::string_view &line)
     if (position_ >= text_.size()) return false;
     std::size_t end = position_;
 
+    cancel_check();
     while (end < text_.size() && text_[end] != '\n' && text_[end] != '\r') end++;
     line = text_.substr(position_, end - position_);
     position_ = end + (text_.substr(end, 2) == "\r\n" ? 2 : 1);

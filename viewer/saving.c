@@ -88,24 +88,37 @@ void saving_full_render(preview *p)
     if (rc != STATUS_OK) tell(p, rc, folder);
 }
 
+/* A page as the canvas has it. */
+typedef struct page_copy {
+    size_t width;
+    uint8_t *rgb; /* shape (height, width, 3) */
+} page_copy;
+
+static const uint8_t *row_of(void *self, uint32_t y)
+{
+    const page_copy *copy = self;
+
+    return copy->rgb + y * copy->width * 3;
+}
+
 status saving_write_page(preview *p, const char *path)
 {
     status rc = STATUS_OK;
     char message[1024] = "";
     output_file *file = NULL;
     const image_frame about = {.width = (uint32_t)p->width, .height = (uint32_t)p->height};
-    uint8_t *rgb = malloc((size_t)p->width * (size_t)p->height * 3);
+    page_copy copy = {(size_t)p->width, malloc((size_t)p->width * (size_t)p->height * 3)};
 
-    NEED(rgb, STATUS_MEMORY, "no memory for the page");
-    TRY(canvas_read(p->c, rgb));
+    NEED(copy.rgb, STATUS_MEMORY, "no memory for the page");
+    TRY(canvas_read(p->c, copy.rgb));
     TRY(output_file_open(&file, path));
-    NEED(image_file_write_png(output_file_stream(file), path, &about, rgb, message,
+    NEED(image_file_write_png(output_file_stream(file), path, &about, row_of, &copy, message,
                               sizeof message) == 0,
          STATUS_FILE, "%s", message);
     TRY(output_file_commit(file));
 out:
     output_file_free(file);
-    free(rgb);
+    free(copy.rgb);
     return rc;
 }
 

@@ -8,6 +8,7 @@ extern "C" {
 
 #include <cerrno>
 #include <climits>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -75,6 +76,14 @@ class image_output
     std::unique_ptr<OIIO::ImageOutput> image_;
 };
 
+float shown(const image_channel &channel, float value)
+{
+    const double share = (static_cast<double>(value) - channel.low) / (channel.high - channel.low);
+
+    return channel.low < channel.high ? static_cast<float>(std::fmin(std::fmax(share, 0.0), 1.0))
+                                      : value;
+}
+
 /* One row of all channels, interleaved, at a time: OpenImageIO takes no planes. */
 void write_rows(image_output &output, const image_frame &frame, const image_channel *channel,
                 std::size_t channel_count)
@@ -82,9 +91,11 @@ void write_rows(image_output &output, const image_frame &frame, const image_chan
     std::vector<float> row(frame.width * channel_count);
 
     for (std::uint32_t y = 0; y < frame.height; y++) {
+        if (frame.is_cancelled && frame.is_cancelled()) throw failure("interrupted");
         for (std::size_t c = 0; c < channel_count; c++) {
             const float *value = channel[c].value + std::size_t{y} * frame.width;
-            for (std::size_t x = 0; x < frame.width; x++) row[x * channel_count + c] = value[x];
+            for (std::size_t x = 0; x < frame.width; x++)
+                row[x * channel_count + c] = shown(channel[c], value[x]);
         }
         output.write_row(y, OIIO::TypeDesc::FLOAT, row.data());
     }
@@ -122,7 +133,7 @@ try {
 }
 
 extern "C" int image_file_write_png(FILE *file, const char *path, const image_frame *frame,
-                                    const std::uint8_t *rgb, char *message,
+                                    image_row_source *row, void *self, char *message,
                                     std::size_t message_size)
 try {
     OIIO::ImageSpec spec = spec_of(path, *frame, 3, OIIO::TypeDesc::UINT8);
@@ -130,8 +141,11 @@ try {
     spec.attribute("png:compressionLevel", 3);
     image_output output(file, path, "png", spec);
 
-    for (std::uint32_t y = 0; y < frame->height; y++)
-        output.write_row(y, OIIO::TypeDesc::UINT8, rgb + std::size_t{y} * frame->width * 3);
+    for (std::uint32_t y = 0; y < frame->height; y++) {
+        const std::uint8_t *rgb = row(self, y);
+        if (!rgb) throw failure(std::string(path) + ": no row " + std::to_string(y));
+        output.write_row(y, OIIO::TypeDesc::UINT8, rgb);
+    }
     output.close();
     return 0;
 } catch (...) {

@@ -33,6 +33,15 @@ std::string printable(const char *text)
     return result;
 }
 
+/* Whether any of a text, whose box is around its origin, lies on the page: OpenImageIO breaks off the program
+ * where none does. */
+bool touches(const lettering_page *page, int x, int y, const OIIO::ROI &box)
+{
+    if (!box.defined()) fail("");
+    return x + box.xend > 0 && x + box.xbegin < static_cast<int>(page->width) && y + box.yend > 0 &&
+           y + box.ybegin < static_cast<int>(page->height);
+}
+
 } // namespace
 
 extern "C" int lettering_width(int *out_width, const char *text, int size, char *message,
@@ -58,6 +67,7 @@ try {
     const float ink[] = {colour[0] / 255.0f, colour[1] / 255.0f, colour[2] / 255.0f};
 
     if (!text[0]) return 0;
+    if (!touches(page, x, y, OIIO::ImageBufAlgo::text_size(printable(text), size, font))) return 0;
     if (!OIIO::ImageBufAlgo::render_text(image, x, y, printable(text), size, font, ink))
         fail(image.geterror());
     return 0;

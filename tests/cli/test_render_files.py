@@ -1,6 +1,7 @@
 """What radsig render leaves in the folder: files, options that change them, and nothing after a
 failure."""
 import hashlib
+import json
 import os
 import pty
 import resource
@@ -126,6 +127,21 @@ def test_the_report_names_inputs_with_their_hashes(made):
         assert each["bytes"] == len(data)
     assert [os.path.basename(each["path"]) for each in made.report["inputs"]] == ["scene.toml",
                                                                                   "plane.obj"]
+
+
+def test_the_report_is_json_whatever_the_paths_bytes_are(program, tmp_path):
+    folder = os.fsencode(tmp_path) + b"/caf\xe9 \xc0\x80"  # Latin-1, an overlong form
+    os.mkdir(folder)
+    program.write_scene(tmp_path)
+    for name in (b"scene.toml", b"plane.obj"):
+        shutil.copy(os.fsencode(tmp_path) + b"/" + name, folder)
+
+    done = subprocess.run([os.fsencode(program.path), b"render", folder + b"/scene.toml", b"-o",
+                           os.fsencode(tmp_path) + b"/out"], capture_output=True)
+
+    assert done.returncode == 0, done.stderr
+    report = json.loads((tmp_path / "out/plane.json").read_text(encoding="utf-8"))
+    assert report["scene_path"].endswith("/caf\u00e9 \u00c0\u0080/scene.toml")
 
 
 def test_the_report_says_with_what_and_how(program, made):

@@ -90,6 +90,94 @@ static void a_container_cut_short_is_refused(void **state)
     assert_null(a);
 }
 
+/* The shipped database as a container with one key of its object changed. */
+static status read_changed(const char *key, const char *value)
+{
+    atmosphere *a = NULL;
+    char *text = NULL, *at, stated[64];
+    size_t size = 0;
+    FILE *file;
+
+    assert_int_equal(atmosphere_read(&a, shipped), STATUS_OK);
+    assert_int_equal(atmosphere_container_write(a, text_file_at), STATUS_OK);
+    atmosphere_free(a);
+    file = fopen(text_file_at, "rb");
+    assert_true(getdelim(&text, &size, '}', file) > 0);
+    fclose(file);
+    snprintf(stated, sizeof stated, "\"%s\": ", key);
+    at = strstr(text, stated);
+    assert_non_null(at);
+    at += strlen(stated);
+    file = fopen(text_file_at, "wb");
+    fprintf(file, "%.*s%s%s", (int)(at - text), text, value,
+            at + strcspn(at, *value == '[' ? "]" : ",\n") + (*value == '['));
+    fputc('\n', file);
+    fclose(file);
+    free(text);
+    a = NULL;
+    const status rc = atmosphere_read(&a, text_file_at);
+    assert_null(a);
+    return rc;
+}
+
+static void a_number_of_a_container_has_its_range(void **state)
+{
+    static const struct {
+        const char *key, *value, *expected;
+    } wrong[] = {
+        {"sensor_altitude_m", "nan", ":4: invalid token near 'nan'"},
+        {"sensor_altitude_m", "1e300", "from 0 to 1e+06"},
+        {"sensor_altitude_m", "-5", "from 0 to 1e+06"},
+        {"path_zenith_meaningful_deg", "\"9\"", "expected a number"},
+        {"path_zenith_meaningful_deg", "91", "from 0 to 90"},
+        {"zenith_step_deg", "inf", "invalid token near 'inf'"},
+        {"zenith_step_deg", "1e999", "real number overflow"},
+        {"zenith_step_deg", "0x5", "expected"},
+        {"zenith_step_deg", "5, \"zenith_step_deg\": 5", "duplicate object key"},
+        {"header", "[1]", "expected a list of strings"},
+        {"path_count", "2.5", "whole number"},
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_int_equal(read_changed(wrong[i].key, wrong[i].value), STATUS_FORMAT);
+        if (!strstr(status_message(), wrong[i].expected))
+            fail_msg("'%s' lacks '%s'", status_message(), wrong[i].expected);
+    }
+}
+
+static void the_object_of_a_container_may_be_laid_out_in_any_way(void **state)
+{
+    atmosphere *a = NULL;
+    char *text = NULL;
+    size_t size = 0;
+    ssize_t length;
+    FILE *file;
+
+    (void)state;
+    assert_int_equal(atmosphere_read(&a, shipped), STATUS_OK);
+    a->header[0] = '#';
+    a->header[1] = '\xe9'; /* Latin-1 */
+    assert_int_equal(atmosphere_container_write(a, text_file_at), STATUS_OK);
+    file = fopen(text_file_at, "rb+");
+    length = getdelim(&text, &size, '}', file);
+    assert_true(length > 0);
+    for (char *c = strchr(text, '{') + 1; c < text + length; c++)
+        if (*c == '\n') *c = ' ';
+    rewind(file);
+    fwrite(text, 1, (size_t)length, file);
+    fclose(file);
+    free(text);
+
+    atmosphere *b = NULL;
+    assert_int_equal(atmosphere_read(&b, text_file_at), STATUS_OK);
+
+    assert_int_equal(b->point_count, a->point_count);
+    assert_memory_equal(b->header, "#\xc3\xa9", 3);
+    atmosphere_free(a);
+    atmosphere_free(b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -98,6 +186,10 @@ int main(void)
                                         text_file_teardown),
         cmocka_unit_test_setup_teardown(a_container_cut_short_is_refused, text_file_setup,
                                         text_file_teardown),
+        cmocka_unit_test_setup_teardown(a_number_of_a_container_has_its_range, text_file_setup,
+                                        text_file_teardown),
+        cmocka_unit_test_setup_teardown(the_object_of_a_container_may_be_laid_out_in_any_way,
+                                        text_file_setup, text_file_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,9 +16,15 @@ enum { WIDTH = 7, HEIGHT = 5, PIXELS = WIDTH * HEIGHT };
 static char path[] = P_tmpdir "/radsig-image-XXXXXX", message[512];
 static float temperature_c[PIXELS], radiance[PIXELS];
 static const image_text text[] = {{"unit", "W m-2 sr-1"}, {"DateTime", "1987:06:24 15:00:00"}};
-static const image_frame dated = {WIDTH, HEIGHT, text, 2}, undated = {WIDTH, HEIGHT, text, 1};
-static const image_channel channel[] = {{"temperature_c", temperature_c},
-                                        {"radiance_lwir", radiance}};
+static const image_frame dated = {WIDTH, HEIGHT, text, 2, NULL},
+                         undated = {WIDTH, HEIGHT, text, 1, NULL};
+static const image_channel channel[] = {{"temperature_c", temperature_c, 0.0, 0.0},
+                                        {"radiance_lwir", radiance, 0.0, 0.0}};
+
+static const uint8_t *row_of(void *rgb, uint32_t y)
+{
+    return (uint8_t *)rgb + 3 * WIDTH * y;
+}
 
 /* Writes `count` channels, or a PNG where `from` is NULL, into a file; returns what the writer does. */
 static int write_into(const char *to, const image_frame *frame, const image_channel *from,
@@ -29,9 +35,10 @@ static int write_into(const char *to, const image_frame *frame, const image_chan
 
     assert_non_null(file);
     for (int i = 0; i < PIXELS * 3; i++) rgb[i] = (uint8_t)i;
-    const int code = from ? image_file_write_exr(file, to, frame, from, count, compression, message,
-                                                 sizeof message)
-                          : image_file_write_png(file, to, frame, rgb, message, sizeof message);
+    const int code =
+        from ? image_file_write_exr(file, to, frame, from, count, compression, message,
+                                    sizeof message)
+             : image_file_write_png(file, to, frame, row_of, rgb, message, sizeof message);
     fclose(file);
     return code;
 }
@@ -160,7 +167,7 @@ static void a_full_disk_is_told(void **state)
 
 static void an_image_without_channels_or_with_one_name_twice_is_refused(void **state)
 {
-    const image_channel twice[] = {{"a", radiance}, {"a", radiance}};
+    const image_channel twice[] = {{"a", radiance, 0.0, 0.0}, {"a", radiance, 0.0, 0.0}};
     (void)state;
 
     assert_int_not_equal(write_into(path, &dated, twice, 0, IMAGE_NONE), 0);

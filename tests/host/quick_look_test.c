@@ -2,7 +2,10 @@
 #include "quick_look.h"
 
 #include "colour_map.h"
+#include "interrupt.h"
 #include "scratch_folder.h"
+
+#include <sys/resource.h>
 
 static const image_label material[] = {{1, "concrete"}, {22, "grass"}};
 
@@ -220,6 +223,40 @@ static void the_first_22_categories_differ(void **state)
     }
 }
 
+/* Of 48 MB of pixels a strip of 4 MiB is held; the values are zero pages, which need no memory. */
+static void memory_does_not_grow_with_the_picture(void **state)
+{
+    const uint32_t columns = 2000, rows = 8000;
+    float *value = calloc((size_t)columns * rows, sizeof *value);
+    const quick_look small = look_of(value, 300, 300), large = look_of(value, columns, rows);
+    struct rusage before, after;
+    (void)state;
+
+    assert_non_null(value);
+    write_look("small.png", &small);
+    getrusage(RUSAGE_SELF, &before);
+    write_look("large.png", &large);
+    getrusage(RUSAGE_SELF, &after);
+    free(value);
+
+    assert_true(after.ru_maxrss - before.ru_maxrss < 16 << 10); /* KiB */
+}
+
+static void an_interrupt_ends_a_picture(void **state)
+{
+    const atomic_int token = 1;
+    static float value[16 * 12];
+    const quick_look look = look_of(value, 16, 12);
+    output_folder *folder = NULL;
+    (void)state;
+
+    assert_int_equal(output_folder_open(&folder, scratch), STATUS_OK);
+    interrupt_obey(&token);
+    assert_int_equal(quick_look_write(folder, "a.png", &look), STATUS_INTERRUPTED);
+    interrupt_obey(NULL);
+    output_folder_free(folder);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, scratch_setup, scratch_teardown)
 
 int main(void)
@@ -236,6 +273,8 @@ int main(void)
         TEST(heat_has_the_colours_of_inferno),
         TEST(diverging_runs_from_blue_over_white_to_red),
         TEST(the_first_22_categories_differ),
+        TEST(memory_does_not_grow_with_the_picture),
+        TEST(an_interrupt_ends_a_picture),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -22,7 +22,7 @@ static const char ordered[] = "{\n"
                               "  \"thermal\": \"therm\",\n"
                               "  \"time\": \"1987-06-24T15:00:00Z\",\n"
                               "  \"site\": {\n"
-                              "    \"latitude_deg\": 39.77333333333333,\n"
+                              "    \"latitude_deg\": 39.773333,\n"
                               "    \"longitude_deg\": -84.1,\n"
                               "    \"altitude_m\": 250\n"
                               "  },\n"
@@ -76,7 +76,7 @@ static const char ordered[] = "{\n"
                               "    \"two\"\n"
                               "  ],\n"
                               "  \"timings_s\": {\n"
-                              "    \"rays\": 0.2500\n"
+                              "    \"rays\": 0.25\n"
                               "  }\n"
                               "}\n";
 
@@ -92,7 +92,7 @@ static const render_report full_report = {.scene = "airport",
                                           .mode = "exact",
                                           .thermal = "therm",
                                           .time = "1987-06-24T15:00:00Z",
-                                          .latitude_deg = 39.77333333333333,
+                                          .latitude_deg = 39.773333,
                                           .longitude_deg = -84.1,
                                           .altitude_m = 250.0,
                                           .platform = "Portable Computing Language",
@@ -134,28 +134,52 @@ static void assert_holds(const char *expected)
 static void strings_are_escaped(void **state)
 {
     const render_report report = {
-        .scene = "a\"b\\c\td", .mode = "caf\xc3\xa9", .thermal = "\xe9\x20", .time = NULL};
+        .scene = "a\"b\\c\td", .mode = "caf\xc3\xa9", .thermal = "x\x01", .time = NULL};
     (void)state;
 
     write_report(&report);
 
-    assert_holds("\"scene\": \"a\\\"b\\\\c\\u0009d\"");
+    assert_holds("\"scene\": \"a\\\"b\\\\c\\td\"");
     assert_holds("\"mode\": \"caf\xc3\xa9\"");
-    assert_holds("\"thermal\": \"\\ufffd \"");
+    assert_holds("\"thermal\": \"x\\u0001\"");
     assert_holds("\"time\": null");
+}
+
+/* RFC 3629, 3: no overlong forms, no surrogates, nothing above U+10FFFF. */
+static void what_is_not_utf_8_is_read_as_latin_1(void **state)
+{
+    static const struct {
+        const char *bytes, *shown;
+    } texts[] = {{"caf\xe9 1", "caf\xc3\xa9 1"},
+                 {"s\xc0\x80x", "s\xc3\x80\xc2\x80x"},         /* overlong */
+                 {"\xed\xa0\x80", "\xc3\xad\xc2\xa0\xc2\x80"}, /* a surrogate */
+                 {"\xf4\x90\x80\x80", "\xc3\xb4\xc2\x90\xc2\x80\xc2\x80"},
+                 {"\xc3", "\xc3\x83"}}; /* cut */
+    (void)state;
+
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        const render_report report = {.scene = texts[i].bytes};
+        char expected[64];
+        write_report(&report);
+        snprintf(expected, sizeof expected, "\"scene\": \"%s\"", texts[i].shown);
+        assert_holds(expected);
+    }
 }
 
 static void numbers_read_back_exactly_and_others_are_null(void **state)
 {
-    const render_report_setting setting[] = {
-        {"third", NULL, 1.0 / 3.0}, {"tiny", NULL, 1e-300}, {"none", NULL, 0.0 / 0.0}};
-    const render_report report = {.setting = setting, .setting_count = 3};
+    const render_report_setting setting[] = {{"third", NULL, 1.0 / 3.0},
+                                             {"tiny", NULL, 1e-300},
+                                             {"seed", NULL, 4294967295.0},
+                                             {"none", NULL, 0.0 / 0.0}};
+    const render_report report = {.setting = setting, .setting_count = 4};
     (void)state;
 
     write_report(&report);
 
     assert_holds("\"third\": 0.3333333333333333,"); /* the shortest that is 1/3 in binary64 */
     assert_holds("\"tiny\": 1e-300");
+    assert_holds("\"seed\": 4294967295,");
     assert_holds("\"none\": null");
 }
 
@@ -206,6 +230,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(a_report_has_its_members_in_their_order),
         TEST(strings_are_escaped),
+        TEST(what_is_not_utf_8_is_read_as_latin_1),
         TEST(numbers_read_back_exactly_and_others_are_null),
         TEST(empty_lists_close_at_once),
         TEST(the_hash_of_abc_is_that_of_fips_180),

@@ -112,6 +112,32 @@ static void rings_of_few_cells_stay_whole(void **state)
     free_both(g);
 }
 
+/* Rings of 24 keep 4 cells and then all of them. */
+static void a_thinned_grid_can_be_thinned(void **state)
+{
+    device *dev = NULL;
+    shape_factor_grid *grid = NULL, *thinned = NULL, *part = NULL, *twice = NULL;
+    float(*cell)[4];
+
+    (void)state;
+    assert_int_equal(device_open(&dev, -1), STATUS_OK);
+    assert_int_equal(shape_factor_open(&grid, dev, SHAPE_FACTOR_COSINE, 15.0, 15.0), STATUS_OK);
+    assert_int_equal(shape_factor_open_thinned(&thinned, dev, grid), STATUS_OK);
+    assert_int_equal(shape_factor_open_thinned(&twice, dev, thinned), STATUS_OK);
+    assert_int_equal(shape_factor_cell_count(twice), 6 * 4);
+    cell = download(dev, twice);
+    assert_near(moment(cell, 6 * 4, 3, 0), 1.0, 1e-6);
+    free(cell);
+    shape_factor_free(twice);
+    assert_int_equal(shape_factor_open_part(&part, dev, grid, 0, 4), STATUS_OK);
+    assert_int_equal(shape_factor_open_thinned(&twice, dev, part), STATUS_OK);
+    shape_factor_free(twice);
+    shape_factor_free(part);
+    shape_factor_free(thinned);
+    shape_factor_free(grid);
+    device_free(dev);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -119,6 +145,7 @@ int main(void)
         cmocka_unit_test(thinned_cells_weigh_the_hemisphere_evenly),
         cmocka_unit_test(half_of_the_weights_are_upslope),
         cmocka_unit_test(rings_of_few_cells_stay_whole),
+        cmocka_unit_test(a_thinned_grid_can_be_thinned),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
