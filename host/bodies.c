@@ -135,7 +135,7 @@ void bodies_free(bodies *b)
     free(b);
 }
 
-medium_tables bodies_tables(const bodies *b)
+medium_tables media_tables(const bodies *b)
 {
     return (medium_tables){.bodies = b->world,
                            .body_nodes = b->tree.node,

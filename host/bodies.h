@@ -20,7 +20,7 @@ void bodies_free(bodies *b);
 void bodies_leave_out(const struct scene *s, uint32_t (*out)[4]);
 
 /* What kernels need of it. */
-medium_tables bodies_tables(const bodies *b);
+medium_tables media_tables(const bodies *b);
 
 /* True if light that a body takes may come out again. */
 bool bodies_scatter(const bodies *b);

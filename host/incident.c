@@ -154,7 +154,7 @@ static status run_bodies(const incident *in, const incident_pixels *p, float_buf
                                                        .camera = p->camera,
                                                        .params = params_of(in, p),
                                                        .tree = ray_scene_tree(in->scene),
-                                                       .medium = bodies_tables(p->bodies),
+                                                       .medium = media_tables(p->bodies),
                                                        .surface = in->surfaces,
                                                        .light = p->light,
                                                        .hemisphere = rays_of(in, p),

@@ -118,7 +118,7 @@ static status trace(const sun_history *history, const ray_scene *scene, const su
                       &(sun_share_args){.count = count,
                                         .day = history->day,
                                         .world = ray_scene_tree(scene).world,
-                                        .medium = bodies_tables(dimming),
+                                        .medium = media_tables(dimming),
                                         .sun = sun,
                                         .hit = points->hit,
                                         .lit = out_lit}));

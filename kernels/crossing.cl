@@ -26,7 +26,7 @@ kernel void crossing(const radiometry_record frame, const camera_record camera,
 {
     const uint pixel = get_global_id(0);
     if (pixel >= frame.pixel_count) return;
-    const medium_tables media = TABLES_GIVEN(MEDIUM_TABLES);
+    const medium_tables medium = TABLES_GIVEN(MEDIUM_TABLES);
     const pixel_tables pixels = TABLES_GIVEN(PIXEL_TABLES);
     const hit_record at = pixels.hit[pixel];
     const background_record behind = pixels.background[pixel];
@@ -36,23 +36,23 @@ kernel void crossing(const radiometry_record frame, const camera_record camera,
 
     camera_origin(camera, frame.columns, frame.first_pixel + pixel, r.origin);
     pixel_ray(camera, frame.columns, frame.first_pixel + pixel, r.direction);
-    found[TRANSMISSION_CAMERA] = crossing_path(&media, &r);
-    if (!frame.thesis) crossing_set_vertical(&media, &r, &found[TRANSMISSION_CAMERA]);
+    found[TRANSMISSION_CAMERA] = crossing_path(&medium, &r);
+    if (!frame.thesis) crossing_set_vertical(&medium, &r, &found[TRANSMISSION_CAMERA]);
     if (at.facet != RECORD_NONE && frame.sun[2] > 0.0f) {
         r = ray_leaving(&world, at.point, at.normal, frame.sun);
-        found[TRANSMISSION_SUN] = crossing_path(&media, &r);
+        found[TRANSMISSION_SUN] = crossing_path(&medium, &r);
     }
     if (at.facet != RECORD_NONE && behind.facet != RECORD_NONE) {
         r = between(&world, at.point, at.normal, behind.point);
-        found[TRANSMISSION_BACKGROUND] = crossing_path(&media, &r);
+        found[TRANSMISSION_BACKGROUND] = crossing_path(&medium, &r);
         r = ray_leaving(&world, behind.point, behind.normal, frame.sun);
-        if (frame.sun[2] > 0.0f) found[TRANSMISSION_BACKGROUND_SUN] = crossing_path(&media, &r);
+        if (frame.sun[2] > 0.0f) found[TRANSMISSION_BACKGROUND_SUN] = crossing_path(&medium, &r);
     }
     for (uint p = 0; p < TRANSMISSION_PATHS; p++)
         out_paths[(size_t)p * frame.pixel_count + pixel] = found[p];
-    direct[pixel] = pixels.sunlit[pixel] * transmission_broad_band(media.bodies.broad_band_per_m,
+    direct[pixel] = pixels.sunlit[pixel] * transmission_broad_band(medium.bodies.broad_band_per_m,
                                                                    &found[TRANSMISSION_SUN]);
-    background_direct[pixel] =
-        pixels.background_sunlit[pixel] *
-        transmission_broad_band(media.bodies.broad_band_per_m, &found[TRANSMISSION_BACKGROUND_SUN]);
+    background_direct[pixel] = pixels.background_sunlit[pixel] *
+                               transmission_broad_band(medium.bodies.broad_band_per_m,
+                                                       &found[TRANSMISSION_BACKGROUND_SUN]);
 }

@@ -54,7 +54,7 @@ static inline uint crossing_meets(const ray_frame *f, global const bvh_block *bl
 
 /* Adds the crossings of a leaf. Those behind the limit count at the limit: they tell what the ray is
  * inside of there. */
-static inline void crossing_leaf(const ray_frame *f, const medium_tables *media, const uint leaf,
+static inline void crossing_leaf(const ray_frame *f, const medium_tables *medium, const uint leaf,
                                  const float limit, crossing_sum *sum)
 {
     const uint first = ray_block_of(leaf), count = leaf & 15;
@@ -63,11 +63,11 @@ static inline void crossing_leaf(const ray_frame *f, const medium_tables *media,
         float8 range;
         float at[8];
         uint exits;
-        const uint entries = crossing_meets(f, media->body_blocks + b, &range, &exits);
+        const uint entries = crossing_meets(f, medium->body_blocks + b, &range, &exits);
         vstore8(range, 0, at);
         for (uint mask = entries | exits; mask; mask &= mask - 1) {
             const uint i = 31 - clz(mask & -mask);
-            const uint m = media->medium_row[media->body_blocks[b].facet[i]];
+            const uint m = medium->medium_row[medium->body_blocks[b].facet[i]];
             const float range_m = fmin(at[i], limit), sign = exits >> i & 1 ? 1.0f : -1.0f;
             sum->length[m] += sign * range_m;
             sum->moment[m] += sign * 0.5f * range_m * range_m;
@@ -97,11 +97,11 @@ static inline float crossing_start(const crossing_world *bodies, const ray *r)
 
 /* Sums up the crossings of a ray with a unit direction.
  *   out_start   range where the sums begin to count; the lengths are inside up to the limit */
-static inline crossing_sum crossing_along(const medium_tables *media, const ray *r,
+static inline crossing_sum crossing_along(const medium_tables *medium, const ray *r,
                                           float *out_start)
 {
     crossing_sum sum = {{0.0f}, {0.0f}};
-    const float start = crossing_start(&media->bodies, r);
+    const float start = crossing_start(&medium->bodies, r);
     uint stack[RAY_STACK_SIZE], depth = 1;
     ray near = *r;
 
@@ -114,12 +114,12 @@ static inline crossing_sum crossing_along(const medium_tables *media, const ray 
         const uint word = stack[--depth];
         float8 range;
         if (word & BVH_LEAF) {
-            crossing_leaf(&f, media, word, r->limit - start, &sum);
+            crossing_leaf(&f, medium, word, r->limit - start, &sum);
             continue;
         }
-        uint mask = ray_enters(&f, media->body_nodes + word, MAXFLOAT, &range);
+        uint mask = ray_enters(&f, medium->body_nodes + word, MAXFLOAT, &range);
         for (; mask; mask &= mask - 1)
-            stack[depth++] = media->body_nodes[word].child[31 - clz(mask & -mask)];
+            stack[depth++] = medium->body_nodes[word].child[31 - clz(mask & -mask)];
     }
     return sum;
 }
@@ -139,12 +139,12 @@ static inline float crossing_air_k(global const float *level, const uint count,
 }
 
 /* The bodies on a ray's way up to its limit. Its direction is unit. */
-static inline transmission_path crossing_path(const medium_tables *media, const ray *r)
+static inline transmission_path crossing_path(const medium_tables *medium, const ray *r)
 {
-    const crossing_world *bodies = &media->bodies;
+    const crossing_world *bodies = &medium->bodies;
     transmission_path path = {{0.0f}, {0.0f}, {0.0f}, {0.0f}, {0}};
     float start;
-    const crossing_sum sum = crossing_along(media, r, &start);
+    const crossing_sum sum = crossing_along(medium, r, &start);
     uint count = 0;
 
     for (uint m = 0; m < TRANSMISSION_MEDIA; m++) {
@@ -167,17 +167,17 @@ static inline transmission_path crossing_path(const medium_tables *media, const 
         const float stated_k = bodies->stated_k[path.medium[i]];
         path.temperature_k[i] =
             stated_k > 0.0f ? stated_k
-                            : crossing_air_k(media->air_level, bodies->level_count, altitude_m);
+                            : crossing_air_k(medium->air_level, bodies->level_count, altitude_m);
     }
     return path;
 }
 
 /* Sets how thick the materials that scatter are, straight up through the middle of the ray's way in
  * them; where that lies between two bodies of a material, as thick as the way is long. */
-static inline void crossing_set_vertical(const medium_tables *media, const ray *r,
+static inline void crossing_set_vertical(const medium_tables *medium, const ray *r,
                                          transmission_path *path)
 {
-    const crossing_world *bodies = &media->bodies;
+    const crossing_world *bodies = &medium->bodies;
 
     for (uint i = 0; i < TRANSMISSION_MEDIA && path->length_m[i] > 0.0f; i++) {
         ray up = {.direction = {0.0f, 0.0f, 1.0f}, .limit = INFINITY};
@@ -186,7 +186,7 @@ static inline void crossing_set_vertical(const medium_tables *media, const ray *
         for (int k = 0; k < 2; k++)
             up.origin[k] = fma(path->middle_m[i], r->direction[k], r->origin[k]);
         up.origin[2] = bodies->low[2] - 1.0f;
-        const crossing_sum sum = crossing_along(media, &up, &start);
+        const crossing_sum sum = crossing_along(medium, &up, &start);
         const float through = sum.length[path->medium[i]];
         path->vertical_m[i] = through > 0.0f ? through : path->length_m[i];
     }

@@ -9,7 +9,7 @@
 typedef struct body_tables {
     radiometry_record frame;
     tree_tables tree; /* of what is opaque */
-    medium_tables media;
+    medium_tables medium;
     emitter_tables emitters;
     spectra_tables spectra;
 } body_tables;
@@ -35,8 +35,8 @@ static body_ray look(const body_tables *t, const hit_record *at, const float *di
 
     out.facet = met.facet;
     r.limit = met.facet == RECORD_NONE ? INFINITY : met.range_m;
-    out.way = crossing_path(&t->media, &r);
-    crossing_set_vertical(&t->media, &r, &out.way);
+    out.way = crossing_path(&t->medium, &r);
+    crossing_set_vertical(&t->medium, &r, &out.way);
     if (met.facet == RECORD_NONE) {
         out.sky = sky_find(t->frame, direction[0], direction[1], direction[2]);
         return out;
@@ -44,7 +44,7 @@ static body_ray look(const body_tables *t, const hit_record *at, const float *di
     out.seen = see_facet(&t->emitters, t->frame, met.facet, weight, lit, direction);
     if (out.seen.sun > 0.0f) {
         const ray towards_sun = ray_leaving(&tree->world, met.point, met.normal, t->frame.sun);
-        out.sun = crossing_path(&t->media, &towards_sun);
+        out.sun = crossing_path(&t->medium, &towards_sun);
     }
     return out;
 }
@@ -122,7 +122,7 @@ kernel void incident_bodies(const radiometry_record frame, const camera_record c
     const surface_tables surfaces = TABLES_GIVEN(SURFACE_TABLES);
     const body_tables t = {.frame = frame,
                            .tree = TABLES_GIVEN(TREE_TABLES),
-                           .media = TABLES_GIVEN(MEDIUM_TABLES),
+                           .medium = TABLES_GIVEN(MEDIUM_TABLES),
                            .emitters = {.surfaces = surfaces,
                                         .light = TABLES_GIVEN(LIGHT_TABLES),
                                         .light_length = params.light_length},

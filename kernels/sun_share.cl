@@ -11,7 +11,7 @@ kernel void sun_share(const uint count, const sun_day day, const world_record wo
 {
     const uint i = get_global_id(0), word = get_global_id(1);
     if (i >= count) return;
-    const medium_tables media = TABLES_GIVEN(MEDIUM_TABLES);
+    const medium_tables medium = TABLES_GIVEN(MEDIUM_TABLES);
     const hit_record at = hit[i];
     global uint *own = lit + (size_t)i * day.stride;
     uint shares = 0;
@@ -22,8 +22,8 @@ kernel void sun_share(const uint count, const sun_day day, const world_record wo
         if (!sun_history_bit(own, slot)) continue;
         vstore3(vload4(slot, sun).xyz, 0, direction);
         const ray r = ray_leaving(&world, at.point, at.normal, direction);
-        const transmission_path path = crossing_path(&media, &r);
-        const float share = transmission_broad_band(media.bodies.broad_band_per_m, &path);
+        const transmission_path path = crossing_path(&medium, &r);
+        const float share = transmission_broad_band(medium.bodies.broad_band_per_m, &path);
         shares |= (uint)(255.0f * share + 0.5f) << 8u * k;
     }
     own[day.word_count + word] = shares;

@@ -18,13 +18,13 @@ BODY = """
 kernel void probe(TABLES(MEDIUM_TABLES), global const float *rays, global transmission_path *out)
 {
     const uint i = get_global_id(0);
-    const medium_tables media = TABLES_GIVEN(MEDIUM_TABLES);
+    const medium_tables medium = TABLES_GIVEN(MEDIUM_TABLES);
     ray r = {.limit = rays[7 * i + 6]};
     for (int k = 0; k < 3; k++) r.origin[k] = rays[7 * i + k];
     for (int k = 0; k < 3; k++) r.direction[k] = rays[7 * i + 3 + k];
-    out[i] = crossing_path(&media, &r);
+    out[i] = crossing_path(&medium, &r);
     transmission_path path = out[i];
-    crossing_set_vertical(&media, &r, &path);
+    crossing_set_vertical(&medium, &r, &path);
     out[i] = path;
 }
 """
