@@ -1,9 +1,9 @@
 #include "cloud.h"
 
 #include "deck_text.h"
+#include "files/output_file.h"
 #include "lowtran.h"
 #include "lowtran_source.h"
-#include "output_file.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -62,7 +62,7 @@ out:
 /* Run 2 k is clear, 2 k + 1 cloudy at the middle of slice k. */
 static status write_deck(char **out, const cloud_model *model, int run)
 {
-    const double share = (run / 2 + .5) / ALTITUDES;
+    const double fraction = (run / 2 + .5) / ALTITUDES;
     card_deck deck = {.model = 2, .itype = 1, .noprt = 1, .ihaze = 1, .icstl = 1, .dv_cm1 = 100.0};
 
     deck.v1_cm1 = EXTINCTION_FIRST_CM1 - (EXTINCTION_WAVENUMBERS - 1) * EXTINCTION_STEP_CM1;
@@ -74,7 +74,7 @@ static status write_deck(char **out, const cloud_model *model, int run)
         return deck_text(out, &deck, "", "");
     }
     deck.icld = run % 2 ? model->icld : 0;
-    deck.h1_km = model->base_km + share * (model->top_km - model->base_km);
+    deck.h1_km = model->base_km + fraction * (model->top_km - model->base_km);
     deck.range_km = PATH_KM;
     return deck_text(out, &deck, "", "");
 }
@@ -103,8 +103,8 @@ static double look_up(const float *table, double wavelength_um)
 
     while (i + 1 < TABLE && (double)extd_.wavelength_um[i] < wavelength_um) i++;
     const double low = (double)extd_.wavelength_um[i - 1], high = (double)extd_.wavelength_um[i];
-    const double share = (wavelength_um - low) / (high - low);
-    return (double)table[i - 1] + share * ((double)table[i] - (double)table[i - 1]);
+    const double fraction = (wavelength_um - low) / (high - low);
+    return (double)table[i - 1] + fraction * ((double)table[i] - (double)table[i - 1]);
 }
 
 /* Eq. 2.4.3-2 and -4, and the mean over the layer. Rows of the file descend in wavenumber. */
@@ -121,9 +121,9 @@ static void set_extinction(cloud *c, const paths *p)
         c->mean.per_m[i] = fmax(0.0, total / ALTITUDES) * PER_KM;
         if (wavenumber < FIRST_BROAD_CM1 || wavenumber > LAST_BROAD_CM1) continue;
         /* Irradiance is per um: per wavenumber it has the square of the wavelength. */
-        const double share = p->sun[from] / (wavenumber * wavenumber);
-        sum += share * c->mean.per_m[i];
-        weight += share;
+        const double fraction = p->sun[from] / (wavenumber * wavenumber);
+        sum += fraction * c->mean.per_m[i];
+        weight += fraction;
     }
     c->mean.broad_band_per_m = sum / weight;
 }

@@ -3,7 +3,7 @@
 #ifndef CLOUD_H
 #define CLOUD_H
 
-#include "extinction.h"
+#include "material/extinction.h"
 
 enum { CLOUD_COUNT = 5 };
 

@@ -3,7 +3,7 @@
 #ifndef DATABASE_GRID_H
 #define DATABASE_GRID_H
 
-#include "atmosphere.h"
+#include "sky/atmosphere.h"
 
 #include <stdbool.h>
 #include <stddef.h>

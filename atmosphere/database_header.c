@@ -22,9 +22,9 @@ static const char quantities[] =
     "#   LDE LDS  the same of the sky seen from the ground, by zenith angle and azimuth clockwise\n"
     "#            from north; integrated: (1/pi) integral of L cos sin over the hemisphere\n";
 
-static void write_site(FILE *stream, const generation *g, const recipe *r)
+static void write_site(FILE *stream, const database_plan *g, const run_list *r)
 {
-    const sun_position sun = recipe_sun(r);
+    const sun_position sun = run_list_sun(r);
     char time[SITE_TIME_SIZE];
 
     site_format_time(g->s->place.time_s, g->s->place.utc_offset_min, time);
@@ -37,7 +37,7 @@ static void write_site(FILE *stream, const generation *g, const recipe *r)
             "# Sun: zenith angle %.4f, azimuth %.4f degrees clockwise from north (PSA, without\n"
             "# refraction)%s.\n",
             sun.zenith_rad / DEGREE, sun.azimuth_rad / DEGREE,
-            recipe_is_night(r) ? "; it is down, so every solar term is 0" : "");
+            run_list_is_night(r) ? "; it is down, so every solar term is 0" : "");
 }
 
 static void write_plan(FILE *stream, const atmosphere_plan *plan)
@@ -91,15 +91,15 @@ static void write_lines(FILE *stream, const char *text)
 }
 
 /* Every card: the first deck of a family whole, of the others the lines that differ from it. */
-static void write_decks(FILE *stream, const recipe *r)
+static void write_decks(FILE *stream, const run_list *r)
 {
-    const char *const *decks = recipe_decks(r), *const *names = recipe_names(r);
+    const char *const *decks = run_list_decks(r), *const *names = run_list_names(r);
     size_t whole = 0;
 
     fputs(DATABASE_HEADER_CARDS
           "; below the first of its kind, a deck's lines that differ from it.\n",
           stream);
-    for (size_t i = 0; i < recipe_count(r); i++) {
+    for (size_t i = 0; i < run_list_count(r); i++) {
         const char *line = decks[i], *model = decks[whole];
         fprintf(stream, "#  %s\n", names[i]);
         if (i == 0 || strncmp(names[whole], names[i], 2) != 0) {
@@ -117,7 +117,7 @@ static void write_decks(FILE *stream, const recipe *r)
     }
 }
 
-status database_header(char **out, const generation *g, const recipe *r)
+status database_header(char **out, const database_plan *g, const run_list *r)
 {
     status rc = STATUS_OK;
     char *text = NULL;

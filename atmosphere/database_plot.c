@@ -1,6 +1,6 @@
 #include "database_plot.h"
 
-#include "curve.h"
+#include "image/curve.h"
 #include "sky_plot.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #ifndef DATABASE_PLOT_H
 #define DATABASE_PLOT_H
 
-#include "atmosphere.h"
+#include "sky/atmosphere.h"
 
 /* Writes STEM_sun.png (E_S), STEM_tau.png (tau1, tau2), STEM_path.png (L_uE, L_uS), STEM_sky.png
  * (L_DE, L_DS integrated), all by wavelength, the paths at the first, middle and last angle; and

@@ -1,6 +1,6 @@
 #include "deck_cards.h"
 
-#include "card_deck.h"
+#include "sky/card_deck.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef DECK_CARDS_H
 #define DECK_CARDS_H
 
-#include "record_file.h"
+#include "files/record_file.h"
 
 #include <stdio.h>
 

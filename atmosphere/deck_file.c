@@ -1,7 +1,7 @@
 #include "deck_file.h"
 
-#include "card_deck.h"
 #include "deck_cards.h"
+#include "sky/card_deck.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef DECK_FILE_H
 #define DECK_FILE_H
 
-#include "status.h"
+#include "base/status.h"
 
 #include <stddef.h>
 

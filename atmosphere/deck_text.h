@@ -2,7 +2,7 @@
 #ifndef DECK_TEXT_H
 #define DECK_TEXT_H
 
-#include "card_deck.h"
+#include "sky/card_deck.h"
 
 /* The cards in the manual's columns; the caller frees them.
  *   profile_cards   cards 2C, which follow card 2; "" for none

@@ -1,7 +1,7 @@
 #include "import.h"
 
 #include "database_grid.h"
-#include "scene_table.h"
+#include "scene/scene_table.h"
 #include "tape7.h"
 
 #include <math.h>

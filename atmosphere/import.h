@@ -2,7 +2,7 @@
 #ifndef IMPORT_H
 #define IMPORT_H
 
-#include "atmosphere.h"
+#include "sky/atmosphere.h"
 
 /* Reads a manifest, a TOML file (docs/atmosphere.md), and the files that it names, relative to its
  * folder. Fails with a line for each mistake in the manifest; with STATUS_FORMAT where a file lacks

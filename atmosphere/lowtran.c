@@ -2,8 +2,8 @@
 
 #include "lowtran.h"
 
+#include "files/staging_folder.h"
 #include "lowtran_process.h"
-#include "staging_folder.h"
 
 #include <sched.h>
 #include <signal.h>

@@ -3,8 +3,8 @@
 #ifndef LOWTRAN_H
 #define LOWTRAN_H
 
+#include "base/status.h"
 #include "lowtran_sheet.h"
-#include "status.h"
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 #include "phase_table.h"
 
-#include "record_file.h"
+#include "files/record_file.h"
 
 #include <math.h>
 #include <stdio.h>

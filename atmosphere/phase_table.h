@@ -2,7 +2,7 @@
 #ifndef PHASE_TABLE_H
 #define PHASE_TABLE_H
 
-#include "status.h"
+#include "base/status.h"
 
 /* Reads a file of one scattering angle a line: degrees, then the phase functions in sr-1 of the
  * four altitude regions (0-2, 2-10, 10-30, 30-100 km), or one number for all four; lines that start

@@ -1,7 +1,7 @@
 #include "run_table.h"
 
+#include "files/output_file.h"
 #include "lowtran_source.h"
-#include "output_file.h"
 #include "sky_weight.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 #include "sky_plot.h"
 
-#include "colour_map.h"
-#include "picture.h"
+#include "image/colour_map.h"
+#include "image/picture.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -142,10 +142,10 @@ static status draw_bar(picture *pic, const sky *s)
         picture_fill(pic, BAR_X, (uint32_t)(CENTRE_Y - RADIUS + y), BAR_WIDTH, 1, rgb);
     }
     for (int i = 0; i < TICKS; i++) {
-        const double share = i / (TICKS - 1.0);
-        const double value =
-            s->is_log ? s->low * pow(s->high / s->low, share) : s->low + share * (s->high - s->low);
-        const uint32_t y = (uint32_t)(CENTRE_Y + RADIUS - lround(2 * RADIUS * share));
+        const double fraction = i / (TICKS - 1.0);
+        const double value = s->is_log ? s->low * pow(s->high / s->low, fraction)
+                                       : s->low + fraction * (s->high - s->low);
+        const uint32_t y = (uint32_t)(CENTRE_Y + RADIUS - lround(2 * RADIUS * fraction));
         picture_fill(pic, BAR_X + BAR_WIDTH, y, 4, 1, line_rgb);
         snprintf(text, sizeof text, "%.3g", value);
         TRY(picture_text(pic, BAR_X + BAR_WIDTH + 8, y + 4, text, TEXT_SIZE));

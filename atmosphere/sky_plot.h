@@ -3,7 +3,7 @@
 #ifndef SKY_PLOT_H
 #define SKY_PLOT_H
 
-#include "atmosphere.h"
+#include "sky/atmosphere.h"
 
 /* Draws directional radiance integrated over the wavelengths: the zenith in the middle, the horizon
  * at the rim, north on top, azimuths clockwise, bilinear between the directions (eq. 2.4.1-1..3).

@@ -1,7 +1,7 @@
 #include "sonde.h"
 
-#include "record_file.h"
-#include "weather.h"
+#include "files/record_file.h"
+#include "weather/weather.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,7 +31,7 @@ static const column columns[] = {
     {"temperature_k", AT(temperature_k), 1.0, 0.0},
     {"dew_point_c", HUMIDITY, 1.0, ZERO_C_K},
     {"dew_point_k", HUMIDITY, 1.0, 0.0},
-    {"relative_humidity_percent", HUMIDITY, .01, 0.0}, /* a share until the row is whole */
+    {"relative_humidity_percent", HUMIDITY, .01, 0.0}, /* a fraction until the row is whole */
 };
 
 enum { COLUMN_COUNT = sizeof columns / sizeof *columns };
@@ -213,9 +213,9 @@ sonde_level sonde_at(const sonde *s, double altitude_m)
 
     while (i + 1 < s->count && s->level[i].altitude_m < altitude_m) i++;
     const sonde_level *a = &s->level[i - 1], *b = &s->level[i];
-    const double share = (altitude_m - a->altitude_m) / (b->altitude_m - a->altitude_m);
+    const double fraction = (altitude_m - a->altitude_m) / (b->altitude_m - a->altitude_m);
     return (sonde_level){altitude_m,
-                         a->pressure_hpa * pow(b->pressure_hpa / a->pressure_hpa, share),
-                         a->temperature_k + share * (b->temperature_k - a->temperature_k),
-                         a->dew_point_k + share * (b->dew_point_k - a->dew_point_k)};
+                         a->pressure_hpa * pow(b->pressure_hpa / a->pressure_hpa, fraction),
+                         a->temperature_k + fraction * (b->temperature_k - a->temperature_k),
+                         a->dew_point_k + fraction * (b->dew_point_k - a->dew_point_k)};
 }

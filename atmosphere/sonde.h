@@ -2,7 +2,7 @@
 #ifndef SONDE_H
 #define SONDE_H
 
-#include "status.h"
+#include "base/status.h"
 
 #include <stddef.h>
 

@@ -49,30 +49,31 @@ static status check_reach(const sonde *s, const atmosphere_plan *plan)
 }
 
 /* The hour's weather, linear between records. */
-static sonde_level surface(const generation *g)
+static sonde_level surface(const database_plan *g)
 {
     const weather *w = g->s->history;
     const double since_s = g->s->place.time_s - weather_origin_s(w, &g->s->place);
     const double place = fmin(fmax(since_s / w->interval_s, 0.0), (double)(w->count - 1));
     const size_t i = place < (double)(w->count - 1) ? (size_t)place : w->count - 2;
     const weather_record *a = &w->record[i], *b = &w->record[i + 1];
-    const double share = place - (double)i;
+    const double fraction = place - (double)i;
 
     return (sonde_level){.altitude_m = g->plan.ground_altitude_m,
                          .temperature_k = a->air_temperature_k +
-                                          share * (b->air_temperature_k - a->air_temperature_k),
-                         .dew_point_k = a->dew_point_k + share * (b->dew_point_k - a->dew_point_k)};
+                                          fraction * (b->air_temperature_k - a->air_temperature_k),
+                         .dew_point_k =
+                             a->dew_point_k + fraction * (b->dew_point_k - a->dew_point_k)};
 }
 
 static void bend(sonde *s, const sonde_level *ground, const sonde_level *inversion)
 {
     for (size_t i = 0; i < s->count && s->level[i].altitude_m < inversion->altitude_m; i++) {
-        const double share = (s->level[i].altitude_m - ground->altitude_m) /
-                             (inversion->altitude_m - ground->altitude_m);
+        const double fraction = (s->level[i].altitude_m - ground->altitude_m) /
+                                (inversion->altitude_m - ground->altitude_m);
         s->level[i].temperature_k =
-            ground->temperature_k + share * (inversion->temperature_k - ground->temperature_k);
+            ground->temperature_k + fraction * (inversion->temperature_k - ground->temperature_k);
         s->level[i].dew_point_k =
-            ground->dew_point_k + share * (inversion->dew_point_k - ground->dew_point_k);
+            ground->dew_point_k + fraction * (inversion->dew_point_k - ground->dew_point_k);
     }
 }
 
@@ -193,7 +194,7 @@ out:
     return rc;
 }
 
-status sonde_profile_cards(char **out, const generation *g)
+status sonde_profile_cards(char **out, const database_plan *g)
 {
     status rc = STATUS_OK;
     const atmosphere_plan *plan = &g->plan;

@@ -3,7 +3,7 @@
 #ifndef SONDE_PROFILE_H
 #define SONDE_PROFILE_H
 
-#include "generation.h"
+#include "database_plan.h"
 
 /* The profile starts at the ground. Below the plan's inversion altitude, if it states one,
  * temperature and dew point go linearly to those of the scene's weather at its time. Of the levels
@@ -12,6 +12,6 @@
  *   out   the cards, "" without radiosonde and inversion; the caller frees them
  * Fails with STATUS_ARGUMENT where the sounding does not reach down to the ground or up to the
  * inversion. */
-status sonde_profile_cards(char **out, const generation *g);
+status sonde_profile_cards(char **out, const database_plan *g);
 
 #endif

@@ -1,6 +1,6 @@
 #include "tape7.h"
 
-#include "record_file.h"
+#include "files/record_file.h"
 
 #include <ctype.h>
 #include <math.h>

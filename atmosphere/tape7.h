@@ -2,7 +2,7 @@
 #ifndef TAPE7_H
 #define TAPE7_H
 
-#include "status.h"
+#include "base/status.h"
 
 typedef struct tape7 {
     int count;

@@ -1,8 +1,8 @@
 #include "tool.h"
 
-#include "atmosphere_container.h"
-#include "file_name.h"
-#include "output_file.h"
+#include "files/file_name.h"
+#include "files/output_file.h"
+#include "sky/atmosphere_container.h"
 
 option tool_output_option(const char **path, const char *value)
 {

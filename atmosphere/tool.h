@@ -3,9 +3,9 @@
 #ifndef TOOL_H
 #define TOOL_H
 
-#include "atmosphere.h"
-#include "option_table.h"
-#include "program.h"
+#include "options/option_table.h"
+#include "options/program.h"
+#include "sky/atmosphere.h"
 
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
+#include "base/spelling.h"
 #include "cloud.h"
-#include "spelling.h"
 #include "tool.h"
 
 #include <stdio.h>

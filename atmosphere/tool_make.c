@@ -1,5 +1,5 @@
 #include "database_header.h"
-#include "output_folder.h"
+#include "files/output_folder.h"
 #include "phase_table.h"
 #include "sonde_profile.h"
 #include "tool.h"
@@ -25,23 +25,23 @@ static const char purpose[] =
 #define DEGREE (M_PI / 180.0)
 
 typedef struct progress {
-    recipe *r;
+    run_list *r;
     size_t done;
 } progress;
 
 static status take(void *receiver, size_t index, const lowtran_run *run)
 {
     progress *p = receiver;
-    const status rc = recipe_take(p->r, index, run);
+    const status rc = run_list_take(p->r, index, run);
 
     p->done++;
     if (isatty(STDERR_FILENO))
-        fprintf(stderr, "\r%zu of %zu runs%s", p->done, recipe_count(p->r),
-                p->done == recipe_count(p->r) ? "\n" : "");
+        fprintf(stderr, "\r%zu of %zu runs%s", p->done, run_list_count(p->r),
+                p->done == run_list_count(p->r) ? "\n" : "");
     return rc;
 }
 
-static status keep_decks(const recipe *r, const char *path)
+static status keep_decks(const run_list *r, const char *path)
 {
     status rc = STATUS_OK;
     output_folder *folder = NULL;
@@ -49,10 +49,10 @@ static status keep_decks(const recipe *r, const char *path)
     char name[NAME_MAX + 1];
 
     TRY(output_folder_open(&folder, path));
-    for (size_t i = 0; i < recipe_count(r); i++) {
-        snprintf(name, sizeof name, "%s.cdk", recipe_names(r)[i]);
+    for (size_t i = 0; i < run_list_count(r); i++) {
+        snprintf(name, sizeof name, "%s.cdk", run_list_names(r)[i]);
         TRY(output_folder_add(folder, name, &file));
-        fputs(recipe_decks(r)[i], output_file_stream(file));
+        fputs(run_list_decks(r)[i], output_file_stream(file));
         TRY(output_file_close(file));
     }
     TRY(output_folder_commit(folder));
@@ -61,21 +61,21 @@ out:
     return rc;
 }
 
-static void warn_of_night(const generation *g, const recipe *r)
+static void warn_of_night(const database_plan *g, const run_list *r)
 {
     const double shortest_um = 1e4 / g->plan.wavenumber_max_cm1;
 
-    if (!recipe_is_night(r) || shortest_um > THERMAL_FROM_UM) return;
+    if (!run_list_is_night(r) || shortest_um > THERMAL_FROM_UM) return;
     status_warn("%s: the sun stands %.1f degrees below the horizon: every solar term is 0 and the "
                 "database holds no light below %g um; choose another time, or wavenumbers of "
                 "thermal bands alone",
-                g->s->path, recipe_sun(r).zenith_rad * 180.0 / M_PI - 90.0, THERMAL_FROM_UM);
+                g->s->path, run_list_sun(r).zenith_rad * 180.0 / M_PI - 90.0, THERMAL_FROM_UM);
 }
 
 /* Towards the sun LOWTRAN's single scattering peaks, and a table's cell would spread the peak. */
-static void warn_of_aureole(const generation *g, const recipe *r)
+static void warn_of_aureole(const database_plan *g, const run_list *r)
 {
-    const sun_position sun = recipe_sun(r);
+    const sun_position sun = run_list_sun(r);
     const double zenith_step = g->plan.sky_zenith_step_deg * DEGREE;
     const double azimuth_step = g->plan.sky_azimuth_step_deg * DEGREE;
     const double zenith = zenith_step * round(sun.zenith_rad / zenith_step);
@@ -84,7 +84,7 @@ static void warn_of_aureole(const generation *g, const recipe *r)
         acos(fmin(1.0, cos(zenith) * cos(sun.zenith_rad) +
                            sin(zenith) * sin(sun.zenith_rad) * cos(azimuth - sun.azimuth_rad)));
 
-    if (recipe_is_night(r) || off > NEAR_SUN_DEG * DEGREE ||
+    if (run_list_is_night(r) || off > NEAR_SUN_DEG * DEGREE ||
         1e4 / g->plan.wavenumber_max_cm1 > AUREOLE_BELOW_UM)
         return;
     status_warn("%s: a direction of the sky lies %.1f degrees from the sun, whose aureole is then "
@@ -101,12 +101,12 @@ typedef struct make_options {
 static status run(const char *scene_path, const make_options *options)
 {
     status rc = STATUS_OK;
-    generation *g = NULL;
+    database_plan *g = NULL;
     char *profile_cards = NULL, *phase_cards = NULL;
     progress p = {0};
     atmosphere *air = NULL;
 
-    TRY(generation_read(&g, scene_path));
+    TRY(database_plan_read(&g, scene_path));
     if (options->has_time) {
         g->s->place.time_s = options->when.time_s;
         g->s->place.utc_offset_min = options->when.utc_offset_min;
@@ -118,20 +118,20 @@ static status run(const char *scene_path, const make_options *options)
     TRY(tool_check_output(options->output));
     TRY(sonde_profile_cards(&profile_cards, g));
     TRY(phase_table_cards(&phase_cards, g->plan.phase_table));
-    TRY(recipe_open(&p.r, &g->plan, &g->s->place, profile_cards, phase_cards));
+    TRY(run_list_open(&p.r, &g->plan, &g->s->place, profile_cards, phase_cards));
     warn_of_night(g, p.r);
     warn_of_aureole(g, p.r);
     if (options->keep_decks) TRY(keep_decks(p.r, options->keep_decks));
-    TRY(lowtran_run_decks(recipe_decks(p.r), recipe_names(p.r), recipe_count(p.r), take, &p));
-    TRY(recipe_finish(p.r, &air));
+    TRY(lowtran_run_decks(run_list_decks(p.r), run_list_names(p.r), run_list_count(p.r), take, &p));
+    TRY(run_list_finish(p.r, &air));
     TRY(database_header(&air->header, g, p.r));
     TRY(tool_write_database(air, options->output));
 out:
     atmosphere_free(air);
-    recipe_free(p.r);
+    run_list_free(p.r);
     free(phase_cards);
     free(profile_cards);
-    generation_free(g);
+    database_plan_free(g);
     return rc;
 }
 

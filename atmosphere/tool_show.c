@@ -1,6 +1,6 @@
 #include "database_header.h"
 #include "database_plot.h"
-#include "picture.h"
+#include "image/picture.h"
 #include "tool.h"
 
 #include <math.h>

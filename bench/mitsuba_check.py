@@ -16,7 +16,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/radsig"
 PIXELS = (96, 64)
-SAMPLES = 2025  # of Mitsuba, a pixel; a square number, for its strata
+SAMPLES = 2025  # of Mitsuba, a pixel; a square number, for its samples_per_side
 BAND_UM = (8.0, 13.3)
 SITE, TIME = (39.77, -84.11), "1987-06-24T10:00:00-05:00"
 POSITION, TARGET, FOCAL_MM = (28.0, -34.0, 22.0), (0.0, 0.0, 2.0), 35.0

@@ -1,5 +1,5 @@
 /* radsig: the command line. */
-#include "command.h"
+#include "command/command.h"
 
 static const program_command commands[] = {
     {"render", command_render, "make the image of a scene and its truth planes"},

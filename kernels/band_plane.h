@@ -3,7 +3,7 @@
 #ifndef BAND_PLANE_H
 #define BAND_PLANE_H
 
-#include "records.h"
+#include "kernels/records.h"
 
 /* The bits of the radiance's parts. */
 #define BAND_PLANE_PARTS (((1u << RADIANCE_PARTS) - 1u) << BAND_PARTS)

@@ -3,7 +3,7 @@
 #ifndef LANES_H
 #define LANES_H
 
-#include "mask.h"
+#include "kernels/mask.h"
 
 #if !defined(LANES_WIDTH) && defined(__OPENCL_C_VERSION__)
 #define LANES_WIDTH 16

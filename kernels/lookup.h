@@ -2,13 +2,13 @@
 #ifndef LOOKUP_H
 #define LOOKUP_H
 
-#include "records.h"
-#include "spectrum.h"
+#include "kernels/records.h"
+#include "kernels/spectrum.h"
 
 /* Between row `low` and the next: share of the next, 0..1. */
 typedef struct lookup {
     uint low, high;
-    float share;
+    float fraction;
 } lookup;
 
 /* Finds a value in a table of `count` rows from `first` by `step`; outside, the nearest row. */
@@ -24,7 +24,7 @@ static inline lookup lookup_regular(float value, float first, float step, uint c
     }
     at.low = (uint)position;
     at.high = at.low + 1u;
-    at.share = position - (float)at.low;
+    at.fraction = position - (float)at.low;
     return at;
 }
 
@@ -35,9 +35,9 @@ static inline lookup lookup_emissivity(material_record material, float angle_deg
     lookup at = lookup_regular(angle_deg, 0.0f, 1.0f, material.emissivity_angles);
 
     if (nearest) {
-        at.low = at.share < 0.5f ? at.low : at.high;
+        at.low = at.fraction < 0.5f ? at.low : at.high;
         at.high = at.low;
-        at.share = 0.0f;
+        at.fraction = 0.0f;
     }
     at.low += material.emissivity_first;
     at.high += material.emissivity_first;
@@ -52,8 +52,9 @@ static inline spectrum lookup_spectrum(global const float *table, uint row_lengt
 {
     const spectrum low = spectrum_load(table + (size_t)at.low * row_length, block);
 
-    if (at.share == 0.0f) return low;
-    return spectrum_mix(low, spectrum_load(table + (size_t)at.high * row_length, block), at.share);
+    if (at.fraction == 0.0f) return low;
+    return spectrum_mix(low, spectrum_load(table + (size_t)at.high * row_length, block),
+                        at.fraction);
 }
 
 #endif

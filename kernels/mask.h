@@ -3,7 +3,7 @@
 #ifndef MASK_H
 #define MASK_H
 
-#include "dialect.h"
+#include "kernels/dialect.h"
 
 #ifdef __OPENCL_C_VERSION__
 

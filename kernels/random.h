@@ -3,8 +3,8 @@
 #ifndef RANDOM_H
 #define RANDOM_H
 
-#include "constants.h"
-#include "dialect.h"
+#include "kernels/constants.h"
+#include "kernels/dialect.h"
 
 #define RANDOM_ROUNDS 10
 

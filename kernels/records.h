@@ -5,7 +5,7 @@
 #ifndef RECORDS_H
 #define RECORDS_H
 
-#include "dialect.h"
+#include "kernels/dialect.h"
 
 /* Index of "no facet" and "no material". */
 #define RECORD_NONE 0xffffffffu
@@ -157,7 +157,7 @@ RECORD_SIZE(background_record, 48);
  *   direction = corner + (column + .5) across + (row + .5) down, then normalised.
  * Orthographic: all directions are `corner`, and position + (column + .5) across + (row + .5) down is
  * the ray's origin. The picture may be a part of the frame: its pixel (0, 0) is the frame's
- * (first_column, first_row). With several strata a pixel is that many samples across and down, and
+ * (first_column, first_row). With several samples_per_side a pixel is that many samples across and down, and
  * what is said of pixels holds for samples: those of a pixel stand together. */
 typedef struct camera_record {
     float position[3];
@@ -166,8 +166,8 @@ typedef struct camera_record {
     float down[3];
     uint first_column, first_row;
     uint is_orthographic;
-    uint strata; /* 0 or 1: one sample, in the middle of the pixel */
-    uint seed;   /* of the samples' places in their strata */
+    uint samples_per_side; /* 0 or 1: one sample, in the middle of the pixel */
+    uint seed;             /* of the samples' places in their samples_per_side */
     uint unused[3];
 } camera_record;
 RECORD_SIZE(camera_record, 80);
@@ -297,7 +297,7 @@ RECORD_SIZE(band_record, 32);
 /* Where an emissivity of a pixel stands: between two rows of the table. */
 typedef struct emissivity_record {
     uint low, high; /* RECORD_NONE: there is none */
-    float share;    /* of the second, 0..1 */
+    float fraction; /* of the second, 0..1 */
     uint unused;
 } emissivity_record;
 RECORD_SIZE(emissivity_record, 16);
@@ -309,7 +309,7 @@ typedef struct detector_record {
     uint last_count;        /* 2^bits - 1; 0: not quantised */
     float noise;            /* standard deviation */
     float shot;             /* variance per radiance */
-    float fixed_gain;       /* standard deviations over the detectors: a share, a radiance */
+    float fixed_gain;       /* standard deviations over the detectors: a fraction, a radiance */
     float fixed_offset;
     float periodic;                 /* amplitude */
     float waves_across, waves_down; /* per detector */

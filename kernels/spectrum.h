@@ -3,8 +3,8 @@
 #ifndef SPECTRUM_H
 #define SPECTRUM_H
 
-#include "constants.h"
-#include "dialect.h"
+#include "kernels/constants.h"
+#include "kernels/dialect.h"
 
 #if !defined(SPECTRUM_WIDTH) && defined(__OPENCL_C_VERSION__)
 #define SPECTRUM_WIDTH 16

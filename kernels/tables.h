@@ -5,7 +5,7 @@
 #ifndef TABLES_H
 #define TABLES_H
 
-#include "records.h"
+#include "kernels/records.h"
 
 /* The tree of what is opaque, and what rays need to know besides. */
 #define TREE_TABLES(TABLE, AND)                                                                    \
@@ -25,13 +25,13 @@
  *   extinction   CLOUD_... of cloud.h; NULL: no transmissive bodies
  * and how samples lie between knots; NULL: all samples are knots.
  *   knot_first   shape (blocks of SPECTRA_BLOCK samples): the first knot that each takes
- *   knot_share   shape (blocks, knot_span, SPECTRA_BLOCK): what each knot counts at its samples */
+ *   knot_fraction   shape (blocks, knot_span, SPECTRA_BLOCK): what each knot counts at its samples */
 #define SPECTRA_TABLES(TABLE, AND)                                                                 \
     TABLE(global const float *, rows)                                                              \
     AND TABLE(global const float *, emissivity)                                                    \
     AND TABLE(OPTIONAL global const float *, extinction)                                           \
     AND TABLE(OPTIONAL global const uint *, knot_first)                                            \
-    AND TABLE(OPTIONAL global const float *, knot_share)
+    AND TABLE(OPTIONAL global const float *, knot_fraction)
 
 /* Rays of points' hemispheres, and what they met.
  *   cell             shape (cell_count, 4): direction along upslope, across and normal, weight

@@ -28,7 +28,7 @@ typedef struct image_frame {
 typedef struct image_channel {
     const char *name;   /* readers see the channels sorted by name */
     const float *value; /* shape (height, width) */
-    double low, high;   /* low < high: written as the share of the way from low to high, 0..1 */
+    double low, high;   /* low < high: written as the fraction of the way from low to high, 0..1 */
 } image_channel;
 
 /* Gives row y of an 8-bit RGB image, shape (width, 3), valid until the next one is asked for. They are asked

@@ -1,6 +1,6 @@
 #include "bench.h"
 
-#include "clock.h"
+#include "base/clock.h"
 #include "motion.h"
 
 static const double orbit_s = 5.0, orbit_deg = 0.5;

@@ -1,6 +1,6 @@
 #include "control.h"
 
-#include "image.h"
+#include "image/image.h"
 #include "motion.h"
 #include "overlay.h"
 #include "page.h"
@@ -9,8 +9,8 @@
 #include <math.h>
 
 /* Steps of the keys. */
-static const double orbit_deg = 3.0, turn_deg = 1.0, pan_share = 0.02, fly_share = 0.03,
-                    approach_factor = 1.05, minute_s = 60.0, range_share = 0.1;
+static const double orbit_deg = 3.0, turn_deg = 1.0, pan_fraction = 0.02, fly_fraction = 0.03,
+                    approach_factor = 1.05, minute_s = 60.0, range_fraction = 0.1;
 
 /* What a pixel of a drag and a notch of the wheel do. */
 static const double drag_deg = 0.3, wheel_factor = 1.1;
@@ -175,7 +175,7 @@ static void print_values(preview *p)
 
 static void fly(preview *p, double forward, double right, double up)
 {
-    motion_fly(&p->camera, fly_share * forward, fly_share * right, fly_share * up);
+    motion_fly(&p->camera, fly_fraction * forward, fly_fraction * right, fly_fraction * up);
     ask_for_camera(p);
 }
 
@@ -261,11 +261,11 @@ static bool take_drawing(preview *p, unsigned key)
         return true;
     case 'u':
     case 'j':
-        change_range(p, key == 'u' ? 1.0 - range_share : 1.0 + range_share, 0.0);
+        change_range(p, key == 'u' ? 1.0 - range_fraction : 1.0 + range_fraction, 0.0);
         return true;
     case 'i':
     case 'k':
-        change_range(p, 1.0, key == 'i' ? range_share : -range_share);
+        change_range(p, 1.0, key == 'i' ? range_fraction : -range_fraction);
         return true;
     case 'y':
         toggle(p, &p->shows_histogram);
@@ -337,7 +337,7 @@ static void take_arrow(preview *p, const event *e)
         return;
     }
     if (e->shift)
-        motion_pan(&p->camera, pan_share * right, pan_share * up);
+        motion_pan(&p->camera, pan_fraction * right, pan_fraction * up);
     else if (e->control)
         motion_turn(&p->camera, turn_deg * right, turn_deg * up);
     else

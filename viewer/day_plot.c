@@ -1,6 +1,6 @@
 #include "day_plot.h"
 
-#include "../kernels/constants.h"
+#include "kernels/constants.h"
 
 #include <math.h>
 
@@ -10,7 +10,7 @@ static const canvas_colour ink = {25, 25, 25, 255}, paper = {255, 255, 255, 220}
                            curve = {178, 24, 43, 255}, sunny = {243, 195, 0, 255},
                            shaded = {120, 130, 150, 255};
 
-static void draw_strip(const preview *p, const temperature_day *day, preview_rectangle into)
+static void draw_strip(const preview *p, const pixel_day *day, preview_rectangle into)
 {
     const double step = into.width / day->step_count;
 
@@ -19,7 +19,7 @@ static void draw_strip(const preview *p, const temperature_day *day, preview_rec
                     day->lit[i] ? sunny : shaded);
 }
 
-static void find_range(const temperature_day *day, double *out_low_k, double *out_high_k)
+static void find_range(const pixel_day *day, double *out_low_k, double *out_high_k)
 {
     *out_low_k = INFINITY;
     *out_high_k = -INFINITY;
@@ -29,8 +29,8 @@ static void find_range(const temperature_day *day, double *out_low_k, double *ou
     }
 }
 
-static void draw_curve(const preview *p, const temperature_day *day, preview_rectangle into,
-                       double low_k, double high_k)
+static void draw_curve(const preview *p, const pixel_day *day, preview_rectangle into, double low_k,
+                       double high_k)
 {
     const double step = into.width / (day->step_count - 1);
 
@@ -45,9 +45,9 @@ static void draw_curve(const preview *p, const temperature_day *day, preview_rec
 
 void day_plot_draw(const preview *p, preview_rectangle into)
 {
-    const temperature_day *day = &p->day.day;
+    const pixel_day *day = &p->day.day;
     const double strip = STRIP * p->scale;
-    char text[160], time[SITE_TIME_SIZE], warmth[64] = "";
+    char text[160], time[SITE_TIME_SIZE], temperatures[64] = "";
     double lit_h = 0.0, low_k, high_k;
 
     if (day->step_count < 2) return;
@@ -63,10 +63,10 @@ void day_plot_draw(const preview *p, preview_rectangle into)
                 p, day,
                 (preview_rectangle){into.x, into.y + 2.0, into.width, into.height - strip - 4.0},
                 low_k, high_k);
-        snprintf(warmth, sizeof warmth, ", %.1f to %.1f C", low_k - (double)ZERO_CELSIUS_K,
-                 high_k - (double)ZERO_CELSIUS_K);
+        snprintf(temperatures, sizeof temperatures, ", %.1f to %.1f C",
+                 low_k - (double)ZERO_CELSIUS_K, high_k - (double)ZERO_CELSIUS_K);
     }
     site_format_time(day->last_s, preview_scene(p)->place.utc_offset_min, time);
-    snprintf(text, sizeof text, "24 h to %.5s: sun %.4g h%s", time + 11, lit_h, warmth);
+    snprintf(text, sizeof text, "24 h to %.5s: sun %.4g h%s", time + 11, lit_h, temperatures);
     canvas_text(p->c, into.x + 4.0, into.y + into.height, CANVAS_TEXT, ink, text);
 }

@@ -2,7 +2,7 @@
 #ifndef FILE_STAMP_H
 #define FILE_STAMP_H
 
-#include "scene.h"
+#include "scene/scene.h"
 
 typedef struct file_stamp {
     uint64_t hash; /* of names, sizes and times of change */

@@ -1,6 +1,6 @@
 #include "frame.h"
 
-#include "render_output.h"
+#include "render/render_output.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef FRAME_H
 #define FRAME_H
 
-#include "render.h"
+#include "render/render.h"
 #include "shared_scene.h"
 
 typedef struct frame {

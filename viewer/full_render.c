@@ -1,7 +1,7 @@
 #include "full_render.h"
 
-#include "interrupt.h"
-#include "render_output.h"
+#include "base/interrupt.h"
+#include "render/render_output.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

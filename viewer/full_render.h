@@ -2,8 +2,8 @@
 #ifndef FULL_RENDER_H
 #define FULL_RENDER_H
 
-#include "status.h"
-#include "view.h"
+#include "base/status.h"
+#include "scene/view.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 #include "glyphs.h"
 
-#include "lettering.h"
+#include "meshio/lettering.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef GLYPHS_H
 #define GLYPHS_H
 
-#include "status.h"
+#include "base/status.h"
 
 #include <stdint.h>
 

@@ -1,8 +1,8 @@
 #include "inspection.h"
 
-#include "../kernels/constants.h"
 #include "day_plot.h"
-#include "image.h"
+#include "image/image.h"
+#include "kernels/constants.h"
 #include "page.h"
 
 #include <math.h>
@@ -99,8 +99,9 @@ static void draw_spectrum(const preview *p, size_t pixel, preview_rectangle into
     if (most <= 0.0 || last_um == first_um) return;
     canvas_fill(p->c, into.x, into.y, into.width, into.height, paper);
     for (uint32_t b = 0; b < bands; b++) {
-        const double share = (f->planes[b].plane.wavelength_um - first_um) / (last_um - first_um);
-        const double x = into.x + share * into.width;
+        const double fraction =
+            (f->planes[b].plane.wavelength_um - first_um) / (last_um - first_um);
+        const double x = into.x + fraction * into.width;
         const double y =
             into.y + into.height * (1.0 - fmax(0.0, (double)f->values[b][pixel]) / most);
         if (b > 0) canvas_line(p->c, x0, y0, x, y, 1.5 * p->scale, curve);
@@ -192,7 +193,7 @@ void inspection_draw(const preview *p)
 
 static void write_day(const preview *p, FILE *to)
 {
-    const temperature_day *day = &p->day.day;
+    const pixel_day *day = &p->day.day;
     char time[SITE_TIME_SIZE];
 
     for (uint32_t i = 0; i < day->step_count; i++) {

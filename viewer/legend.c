@@ -29,10 +29,10 @@ static void draw_bar(const preview *p, preview_rectangle bar)
 
     canvas_fill(p->c, bar.x - 1.0, bar.y - 1.0, bar.width + 2.0, bar.height + 2.0, line);
     for (int y = 0; y < (int)bar.height; y++) {
-        const double share = 1.0 - (y + 0.5) / bar.height;
+        const double fraction = 1.0 - (y + 0.5) / bar.height;
         uint8_t rgb[3];
         painting_colour(colours, s,
-                        colours->range.min + share * (colours->range.max - colours->range.min),
+                        colours->range.min + fraction * (colours->range.max - colours->range.min),
                         rgb);
         canvas_fill(p->c, bar.x, bar.y + y, bar.width, 1.0,
                     (canvas_colour){rgb[0], rgb[1], rgb[2], 255});
@@ -42,14 +42,14 @@ static void draw_bar(const preview *p, preview_rectangle bar)
 
 static void draw_histogram(const preview *p, preview_rectangle into)
 {
-    double share[BINS];
+    double fraction[BINS];
     const double width = into.width / BINS;
 
-    painting_histogram(preview_values(p), frame_pixels(p->live), p->colours.range, BINS, share);
+    painting_histogram(preview_values(p), frame_pixels(p->live), p->colours.range, BINS, fraction);
     canvas_fill(p->c, into.x, into.y + into.height, into.width, 1.0, line);
     for (int i = 0; i < BINS; i++)
-        canvas_fill(p->c, into.x + i * width, into.y + into.height * (1.0 - share[i]), width,
-                    into.height * share[i], line);
+        canvas_fill(p->c, into.x + i * width, into.y + into.height * (1.0 - fraction[i]), width,
+                    into.height * fraction[i], line);
 }
 
 /* The materials of the scene that the picture shows, with their colours. */

@@ -1,17 +1,17 @@
 /* radsig-view: the preview, as a program of its own; `radsig view` starts it. */
+#include "base/clock.h"
+#include "base/number.h"
+#include "base/parallel_job.h"
 #include "bench.h"
-#include "clock.h"
 #include "control.h"
-#include "errand.h"
-#include "file_name.h"
-#include "number.h"
+#include "files/file_name.h"
+#include "image/picture.h"
 #include "offscreen.h"
-#include "option_table.h"
-#include "picture.h"
-#include "program.h"
+#include "options/option_table.h"
+#include "options/program.h"
+#include "options/standard_output.h"
 #include "saving.h"
 #include "script.h"
-#include "standard_output.h"
 #include "window.h"
 
 static const char command[] = "radsig view";
@@ -122,12 +122,12 @@ static status run(const arguments *a, const char *scene_path, double start_s)
 {
     status rc = STATUS_OK;
     opening o = {.scene_path = scene_path};
-    const errand list[] = {{read_scene, &o}, {prepare_pictures, NULL}};
+    const parallel_job list[] = {{read_scene, &o}, {prepare_pictures, NULL}};
     surface *s = NULL;
     preview *p = NULL;
     int width, height;
 
-    TRY(errand_run(list, sizeof list / sizeof *list));
+    TRY(parallel_run(list, sizeof list / sizeof *list));
     program_warn(command);
     const int columns = a->columns ? (int)a->columns : o.of->s->camera.columns;
     const int rows = a->columns ? (int)a->rows : o.of->s->camera.rows;

@@ -50,13 +50,13 @@ void motion_turn(view *v, double right_deg, double up_deg)
     place(v->position_m, s, v->target_m);
 }
 
-static void shift(view *v, const double by[3], double share)
+static void shift(view *v, const double by[3], double fraction)
 {
     const double distance_m = sight_of(v->position_m, v->target_m).distance_m;
 
     for (int i = 0; i < 3; i++) {
-        v->position_m[i] += by[i] * share * distance_m;
-        v->target_m[i] += by[i] * share * distance_m;
+        v->position_m[i] += by[i] * fraction * distance_m;
+        v->target_m[i] += by[i] * fraction * distance_m;
     }
 }
 

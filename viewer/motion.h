@@ -2,7 +2,7 @@
 #ifndef MOTION_H
 #define MOTION_H
 
-#include "view.h"
+#include "scene/view.h"
 
 /* Turns the camera about its target: to its right, and up to straight above or below it. */
 void motion_orbit(view *v, double right_deg, double up_deg);

@@ -4,7 +4,7 @@
 #include "legend.h"
 #include "motion.h"
 #include "overlay.h"
-#include "sun.h"
+#include "sky/sun.h"
 
 #include <math.h>
 #include <string.h>

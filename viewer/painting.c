@@ -1,8 +1,8 @@
 #include "painting.h"
 
-#include "colour_map.h"
-#include "image.h"
-#include "quick_look.h"
+#include "image/colour_map.h"
+#include "image/image.h"
+#include "image/quick_look.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,18 +37,18 @@ static void number_colour(const painting_scale *scale, const scene *s, double va
 void painting_colour(const painting_scale *scale, const scene *s, double value, uint8_t out_rgb[3])
 {
     static const uint8_t missing[3] = {172, 190, 214};
-    const double share = (value - scale->range.min) / (scale->range.max - scale->range.min);
+    const double fraction = (value - scale->range.min) / (scale->range.max - scale->range.min);
 
     if (!isfinite(value) || value == (double)IMAGE_NO_DATA)
         memcpy(out_rgb, missing, 3);
     else if (scale->is_by_number)
         number_colour(scale, s, value, out_rgb);
     else if (scale->map == PAINTING_HEAT)
-        colour_map_heat(share, out_rgb);
+        colour_map_heat(fraction, out_rgb);
     else if (scale->map == PAINTING_DIVERGING)
-        colour_map_diverging(share, out_rgb);
+        colour_map_diverging(fraction, out_rgb);
     else
-        colour_map_grey(share, out_rgb);
+        colour_map_grey(fraction, out_rgb);
 }
 
 void painting_fill(const painting_scale *scale, const scene *s, const float *value, size_t count,
@@ -98,17 +98,17 @@ void painting_outline(const frame *f, const float *facet, uint8_t *rgb)
 }
 
 void painting_histogram(const float *value, size_t count, value_range range, int bins,
-                        double *out_share)
+                        double *out_fraction)
 {
     double fullest = 1.0;
 
-    memset(out_share, 0, (size_t)bins * sizeof *out_share);
+    memset(out_fraction, 0, (size_t)bins * sizeof *out_fraction);
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(value[i]) || value[i] == IMAGE_NO_DATA) continue;
         const double place = ((double)value[i] - range.min) / (range.max - range.min) * bins;
         const int bin = (int)fmin(fmax(place, 0.0), bins - 1.0);
-        out_share[bin] += 1.0;
-        fullest = fmax(fullest, out_share[bin]);
+        out_fraction[bin] += 1.0;
+        fullest = fmax(fullest, out_fraction[bin]);
     }
-    for (int i = 0; i < bins; i++) out_share[i] /= fullest;
+    for (int i = 0; i < bins; i++) out_fraction[i] /= fullest;
 }

@@ -3,7 +3,7 @@
 #define PAINTING_H
 
 #include "frame.h"
-#include "value_range.h"
+#include "image/value_range.h"
 
 typedef enum painting_map {
     PAINTING_OWN, /* the one that suits the plane */
@@ -45,6 +45,6 @@ void painting_outline(const frame *f, const float *facet, uint8_t *rgb);
 /* Counts the values in equal parts of the range; those outside count for the first and last part.
  *   out_share   shape (bins): of the fullest bin */
 void painting_histogram(const float *value, size_t count, value_range range, int bins,
-                        double *out_share);
+                        double *out_fraction);
 
 #endif

@@ -1,6 +1,6 @@
 #include "preview.h"
 
-#include "image.h"
+#include "image/image.h"
 #include "inspection.h"
 #include "page.h"
 
@@ -66,7 +66,7 @@ void preview_free(preview *p)
     full_render_free(p->full);
     session_free(p->work);
     canvas_free(p->c);
-    temperature_day_free(&p->day.day);
+    pixel_day_free(&p->day.day);
     frame_drop(p->live);
     frame_drop(p->pinned);
     shared_scene_drop(p->first);
@@ -238,7 +238,7 @@ static void follow_day(preview *p)
     session_day day;
 
     if (session_take_day(p->work, &day)) {
-        temperature_day_free(&p->day.day);
+        pixel_day_free(&p->day.day);
         p->day = day;
         p->is_stale = true;
     }

@@ -1,8 +1,8 @@
 #include "saving.h"
 
-#include "image.h"
-#include "image_file.h"
-#include "output_file.h"
+#include "files/output_file.h"
+#include "image/image.h"
+#include "meshio/image_file.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 #include "script.h"
 
-#include "clock.h"
+#include "base/clock.h"
+#include "base/number.h"
 #include "control.h"
-#include "input_file.h"
-#include "number.h"
+#include "meshio/input_file.h"
 #include "page.h"
 #include "saving.h"
 

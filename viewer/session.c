@@ -1,6 +1,6 @@
 #include "session.h"
 
-#include "clock.h"
+#include "base/clock.h"
 #include "file_stamp.h"
 
 #include <errno.h>
@@ -175,11 +175,11 @@ static render_look wished_look(const session *s, const session_wish *wish)
 static status render_coarse(session *s, const session_wish *wish, unsigned number)
 {
     render_look look = wished_look(s, wish);
-    const double share = fmin(1.0, fmax((double)SESSION_COARSE_COLUMNS / wish->columns,
-                                        (double)SESSION_COARSE_ROWS / wish->rows));
+    const double fraction = fmin(1.0, fmax((double)SESSION_COARSE_COLUMNS / wish->columns,
+                                           (double)SESSION_COARSE_ROWS / wish->rows));
 
-    look.camera.columns = (int)ceil(share * wish->columns);
-    look.camera.rows = (int)ceil(share * wish->rows);
+    look.camera.columns = (int)ceil(fraction * wish->columns);
+    look.camera.rows = (int)ceil(fraction * wish->rows);
     look.is_coarse = true;
     return render_frame(s, &look, number);
 }
@@ -248,7 +248,7 @@ static void make_day(session *s, unsigned number)
     if (!s->r || render_pixel_day(s->r, (uint32_t)made.pixel, &made.day) != STATUS_OK)
         status_clear();
     pthread_mutex_lock(&s->lock);
-    temperature_day_free(&s->day.day);
+    pixel_day_free(&s->day.day);
     s->day = made;
     s->has_day = true;
     pthread_mutex_unlock(&s->lock);
@@ -319,7 +319,7 @@ void session_free(session *s)
         pthread_join(s->thread, NULL);
     }
     frame_drop(s->newest);
-    temperature_day_free(&s->day.day);
+    pixel_day_free(&s->day.day);
     render_free(s->r);
     shared_scene_drop(s->of);
     device_free(s->dev);

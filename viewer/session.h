@@ -44,8 +44,8 @@ frame *session_take(session *s);
 typedef struct session_day {
     bool is_made;
     size_t pixel;
-    unsigned wish;       /* number of the frame's */
-    temperature_day day; /* no steps: the pixel shows the sky, or the day cannot be had */
+    unsigned wish; /* number of the frame's */
+    pixel_day day; /* no steps: the pixel shows the sky, or the day cannot be had */
 } session_day;
 
 /* Asks for the day of a pixel of the exact frame of the last wish. */

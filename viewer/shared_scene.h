@@ -2,7 +2,7 @@
 #ifndef SHARED_SCENE_H
 #define SHARED_SCENE_H
 
-#include "scene.h"
+#include "scene/scene.h"
 
 #include <stdatomic.h>
 

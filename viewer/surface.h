@@ -3,8 +3,8 @@
 #ifndef SURFACE_H
 #define SURFACE_H
 
+#include "base/status.h"
 #include "event.h"
-#include "status.h"
 
 typedef void (*surface_function)(void);
 

@@ -3,8 +3,8 @@
  * Exit code 1 where they differ by more than the rounding of single precision explains. */
 #include "bench_mesh.h"
 #include "brute_force.h"
-#include "facet_range.h"
-#include "ray_scene.h"
+#include "mesh/facet_range.h"
+#include "rays/ray_scene.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 #include "bench_embree.h"
 
-#include "clock.h"
+#include "base/clock.h"
 
 #include <embree3/rtcore.h>
 #include <math.h>

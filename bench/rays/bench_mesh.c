@@ -1,7 +1,7 @@
 #include "bench_mesh.h"
 
-#include "geometry.h"
-#include "polygon.h"
+#include "mesh/geometry.h"
+#include "mesh/polygon.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #ifndef BENCH_MESH_H
 #define BENCH_MESH_H
 
-#include "status.h"
+#include "base/status.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,11 +1,11 @@
 #define CL_TARGET_OPENCL_VERSION 120
 #include "bench_opencl.h"
 
+#include "base/clock.h"
 #include "bench_embree.h"
-#include "clock.h"
-#include "device_error.h"
-#include "kernel_source.h"
-#include "pocl_affinity.h"
+#include "device/device_error.h"
+#include "device/kernel_source.h"
+#include "device/pocl_affinity.h"
 
 #include <CL/cl.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #define BENCH_OPENCL_H
 
 #include "bench_rays.h"
-#include "bvh.h"
+#include "tree/bvh.h"
 
 typedef struct bench_opencl bench_opencl;
 

@@ -1,7 +1,7 @@
 /* The ray bench: radsig against Embree, the same rays in one process. See bench/README.md. */
+#include "base/clock.h"
 #include "bench_embree.h"
 #include "bench_opencl.h"
-#include "clock.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 extern "C" {
-#include "image_file.h"
+#include "meshio/image_file.h"
 }
-#include "failure.hpp"
+#include "meshio/failure.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -78,9 +78,10 @@ class image_output
 
 float shown(const image_channel &channel, float value)
 {
-    const double share = (static_cast<double>(value) - channel.low) / (channel.high - channel.low);
+    const double fraction =
+        (static_cast<double>(value) - channel.low) / (channel.high - channel.low);
 
-    return channel.low < channel.high ? static_cast<float>(std::fmin(std::fmax(share, 0.0), 1.0))
+    return channel.low < channel.high ? static_cast<float>(std::fmin(std::fmax(fraction, 0.0), 1.0))
                                       : value;
 }
 

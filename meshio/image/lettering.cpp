@@ -1,7 +1,7 @@
 extern "C" {
-#include "lettering.h"
+#include "meshio/lettering.h"
 }
-#include "failure.hpp"
+#include "meshio/failure.hpp"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>

@@ -1,7 +1,7 @@
-#include "image_plugin.hpp"
+#include "meshio/image_plugin.hpp"
 
 extern "C" {
-#include "plugin.h"
+#include "meshio/plugin.h"
 }
 
 namespace

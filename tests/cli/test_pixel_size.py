@@ -30,7 +30,7 @@ def render_halves(program, folder, samples, cold_share, pixels=(3, 5), *options)
 
 @pytest.fixture(scope="module")
 def quarter(program, tmp_path_factory):
-    """An edge that lies between two strata: 4 of 16 samples are cold for certain."""
+    """An edge that lies between two samples_per_side: 4 of 16 samples are cold for certain."""
     return render_halves(program, tmp_path_factory.mktemp("quarter"), 16, 0.25)
 
 

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "status.h"
+#include "base/status.h"
 
 static char text_file_folder[64], text_file_at[128];
 

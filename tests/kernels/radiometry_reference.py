@@ -125,8 +125,8 @@ class Reference:
         """ln tau linear between known places (beyond the last goes on); the source of a step is
         constant."""
         i = min(max(int(np.searchsorted(known, at)) - 1, 0), len(known) - 2)
-        share = (at - float(known[i])) / (float(known[i + 1]) - float(known[i]))
-        tau = np.exp(-(depth[i] + share * (depth[i + 1] - depth[i])))
+        fraction = (at - float(known[i])) / (float(known[i + 1]) - float(known[i]))
+        tau = np.exp(-(depth[i] + fraction * (depth[i + 1] - depth[i])))
         a, b = np.exp(-depth[i]), np.exp(-depth[i + 1])
         return tau, radiance[i] + (radiance[i + 1] - radiance[i]) * (a - tau) / (a - b)
 
@@ -165,7 +165,7 @@ class Reference:
 
     def lobes(self, material, normal, ray):
         """What is reflected of an irradiance normal to the beam, over 1 - e, per sr: eq. 2.4-2's cosine
-        over pi in the thesis' mode; else (1 - e_S) / (1 - e_hemi) of it, and a specular share's lobe."""
+        over pi in the thesis' mode; else (1 - e_S) / (1 - e_hemi) of it, and a specular fraction's lobe."""
         towards = self.frame["sun"].astype(np.float64)
         cosine = max(0.0, normal @ towards)
         if self.frame["thesis"]:
@@ -175,16 +175,16 @@ class Reference:
             rows = self.emissivity_rows[material["emissivity_first"]:][:91]
             diffuse = diffuse * (1 - self.emissivity(material, angle_deg(cosine))) * (
                 lobe_reference.over_reflectance(rows))
-        share = float(material["specular_share"])
-        if share == 0:
+        fraction = float(material["specular_share"])
+        if fraction == 0:
             return diffuse
         lobe = lobe_reference.of_sun(float(material["roughness"]), normal, -ray, towards)
-        return (1 - share) * diffuse + share * lobe
+        return (1 - fraction) * diffuse + fraction * lobe
 
     def pixel(self, pixel):
         """Interaction, spectral radiance at the sensor, emissivity and background's (or None)."""
         case, hit, b = self.case, self.case.hit[pixel], self.case.background[pixel]
-        ray, share = self.ray(pixel), float(b["shape_factor"])
+        ray, fraction = self.ray(pixel), float(b["shape_factor"])
         if hit["facet"] == NONE:
             sky = self.sensor_path(1.0, self.sky(ray), pixel)[1]
             self.parts = [0, 0, 0, 0, sky, 0]
@@ -203,7 +203,7 @@ class Reference:
             behind = self.seen_through(behind, BACKGROUND, pixel)
         sun = self.rows[records.SUN] * float(case.sunlit[pixel]) * self.lobes(material, normal, ray)
         sun = sun * self.transmission(SUN_WAY, pixel)
-        above = share * sky, (1 - share) * behind
+        above = fraction * sky, (1 - fraction) * behind
         if not self.frame["thesis"]:  # exact mode takes what incident.cl made
             above = case.at_samples(case.incident[pixel].astype(np.float64))
         tau2, path = self.sensor_path(*self.air(pixel, float(hit["range_m"])), pixel)
@@ -253,7 +253,7 @@ class Case:
             self.set_bodies()
 
     def set_bands(self):
-        """Three bands apart, and one that shares samples of the first two with other weights."""
+        """Three bands apart, and one that fractions samples of the first two with other weights."""
         edges = [(8.0, 14.0, 30), (0.5, 0.9, 11), (3.0, 5.0, 16)]
         self.bands = np.zeros(len(edges) + 1, records.BAND)
         self.wavelength_um, weight = [], []
@@ -284,7 +284,7 @@ class Case:
                       "paths": self.body_paths, "incident": self.incident},
             "spectra": {"rows": self.spectra, "emissivity": self.emissivity,
                         "extinction": self.extinction, "knot_first": self.knot_first,
-                        "knot_share": self.knot_share}}
+                        "knot_fraction": self.knot_fraction}}
 
     def of_band(self, band):
         """Where in the rows a band is, and its weights there."""
@@ -396,11 +396,11 @@ class Case:
         """At every sample where there are bodies, else at knots: blocks of 16 samples between 5 of them."""
         samples, random = len(self.weight), self.random
         knots = samples if self.has_bodies else 32
-        self.knot_first = self.knot_share = None
+        self.knot_first = self.knot_fraction = None
         if not self.has_bodies:
             self.knot_first = random.integers(0, knots - 4, samples // 16).astype(np.uint32)
-            self.knot_share = random.dirichlet(np.ones(5), (samples // 16, 16)).astype(np.float32)
-            self.knot_share = np.ascontiguousarray(self.knot_share.transpose(0, 2, 1))
+            self.knot_fraction = random.dirichlet(np.ones(5), (samples // 16, 16)).astype(np.float32)
+            self.knot_fraction = np.ascontiguousarray(self.knot_fraction.transpose(0, 2, 1))
             self.frame["knot_span"] = 5
         self.frame["knot_count"] = knots
         self.incident = random.uniform(0.5, 9, (self.count, 2, knots)).astype(np.float32)
@@ -410,7 +410,7 @@ class Case:
         if self.knot_first is None:
             return incident
         between = self.knot_first[:, None] + np.arange(5)
-        return np.einsum("pbk,bki->pbi", incident[:, between], self.knot_share).reshape(2, -1)
+        return np.einsum("pbk,bki->pbi", incident[:, between], self.knot_fraction).reshape(2, -1)
 
     def set_bodies(self):
         random, shape = self.random, (4, self.count)

@@ -39,7 +39,7 @@ WORLD = record("*ground_facet ground_z_m offset_m *cull_back")
 BACKGROUND = record("shape_factor mean_temperature_k *material *facet point[3] normal[3]"
                     " *met_count *unused")
 CAMERA = record("position[3] corner[3] across[3] down[3] *first_column *first_row"
-                " *is_orthographic *strata *seed *unused[3]")
+                " *is_orthographic *samples_per_side *seed *unused[3]")
 RADIOMETRY = record("*columns *first_pixel *pixel_count *band_count *sample_count *thesis"
                     " *path_count path_zenith_first_deg path_zenith_step_deg *zenith_count"
                     " *azimuth_count zenith_step_deg azimuth_step_deg sun[3] *wants *first_group *knot_count *knot_span")
@@ -47,7 +47,7 @@ AIR = record("*first_row *altitude_count *range_count *is_level ground_z_m *unus
              " range_m[20]")
 TRANSMISSION_PATH = record("length_m[4] temperature_k[4] middle_m[4] vertical_m[4] *medium[4]")
 INCIDENT = record("*cell_count *dome_count *ring_count *light_length *is_of_facets *keeps_sky *unused[2]")
-EMISSIVITY = record("*low *high share *unused")
+EMISSIVITY = record("*low *high fraction *unused")
 BAND = record("*first_sample *sample_count gain offset width_um *is_mean *first_weight *unused")
 DETECTOR = record("*seed *frame *band *columns *count *last_count noise shot fixed_gain fixed_offset"
                   " periodic waves_across waves_down gain offset *unused")
@@ -55,10 +55,10 @@ BLUR = record("*columns *rows *step *picture_columns *picture_rows *weight_colum
               " *first_column *first_row *unused[3]")
 SPAN = record("*facet_count *first_step *row_count *sunlit_words weight step_s *sunlit_period *step_count")
 SUN_DAY = record("*slot_count *word_count *nearest since_min step_min *stride *unused[2]")
-CROSSING_WORLD = record("low[3] high[3] altitude_m *level_count stated_k[4] broad_band_per_m[4] *scatters[4]")
+MEDIUM_WORLD = record("low[3] high[3] altitude_m *level_count stated_k[4] broad_band_per_m[4] *scatters[4]")
 LAYERED = record("capacity_j_m2_k[8] conductance_w_m2_k[9] normal[3] absorptance emissivity power_w_m2"
                  " *two_sided *back back_k resistance_day_s_m resistance_night_s_m film_limit_kg_m2"
-                 " stated_temperature_k *material *lateral_column lateral_share[8] sky_share"
+                 " stated_temperature_k *material *lateral_column lateral_fraction[8] sky_fraction"
                  " *received_column *unused[2]")
 CONDUCTION_PROGRESS = record("*days *step *is_settled *is_done")
 CONDUCTION_GROUP = np.dtype("V4096")  # to work with: room enough for what the device makes of it
@@ -70,7 +70,7 @@ TWINS = {  # by the name of the record
     "incident_record": INCIDENT, "band_record": BAND, "detector_record": DETECTOR,
     "blur_record": BLUR, "air_record": AIR, "conduction_record": CONDUCTION, "view_record": VIEW,
     "emissivity_record": EMISSIVITY, "thermal_span": SPAN, "sun_day": SUN_DAY,
-    "crossing_world": CROSSING_WORLD, "transmission_path": TRANSMISSION_PATH,
+    "medium_world": MEDIUM_WORLD, "transmission_path": TRANSMISSION_PATH,
     "layered_record": LAYERED, "conduction_progress": CONDUCTION_PROGRESS,
     "conduction_group": CONDUCTION_GROUP,
 }

@@ -72,8 +72,8 @@ def start(body, load):
         back = front - flux / through
         warms = flux + back_flux(body, load, np.maximum(back, 1.0))[0] > 0
         low, high = np.where(warms, front, low), np.where(warms, high, front)
-    share = (np.arange(NODES) + 0.5) / NODES
-    return front, back, front[:, None] + share * (back - front)[:, None]
+    fraction = (np.arange(NODES) + 0.5) / NODES
+    return front, back, front[:, None] + fraction * (back - front)[:, None]
 
 
 def step_slab(body, load, dt, front, back, node, back_slope):
@@ -120,8 +120,8 @@ def history(facets, materials, forcing, step_s, lit=None, sub_steps=4):
         for i in range(sub_steps):
             direct = before[0] if i < sub_steps // 2 else after[0]
             middle, end = (
-                np.vstack([direct[None], (before + share * (after - before))[1:]])
-                for share in ((i + 0.5) / sub_steps, (i + 1) / sub_steps))
+                np.vstack([direct[None], (before + fraction * (after - before))[1:]])
+                for fraction in ((i + 0.5) / sub_steps, (i + 1) / sub_steps))
             dt = step_s / sub_steps
             lump = step_lump(body, middle, dt, front)
             front, back, node = step_slab(body, end, dt, front, back, node, back_slope)

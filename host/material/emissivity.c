@@ -1,0 +1,40 @@
+#include "material/emissivity.h"
+
+#include <stdlib.h>
+
+static status read_angle(emissivity *e, record_file *file, int angle)
+{
+    status rc = STATUS_OK;
+    double row[EMISSIVITY_WAVENUMBERS];
+    long stated;
+
+    TRY(record_file_count(file, angle, angle, &stated, "an angle in degrees"));
+    TRY(wavenumber_rows_read(file, "an emissivity", 1.0, row));
+    for (int i = 0; i < EMISSIVITY_WAVENUMBERS; i++) e->value[angle][i] = (float)row[i];
+out:
+    return rc;
+}
+
+status emissivity_read(emissivity **out, const char *path)
+{
+    status rc = STATUS_OK;
+    record_file *file = NULL;
+    emissivity *e = malloc(sizeof *e);
+
+    NEED(e, STATUS_MEMORY, "emissivity table");
+    TRY(record_file_open(&file, path));
+    TRY(record_file_header(file, NULL));
+    for (int angle = 0; angle < EMISSIVITY_ANGLES; angle++) TRY(read_angle(e, file, angle));
+    TRY(record_file_finish(file));
+    *out = e;
+    e = NULL;
+out:
+    record_file_free(file);
+    emissivity_free(e);
+    return rc;
+}
+
+void emissivity_free(emissivity *e)
+{
+    free(e);
+}

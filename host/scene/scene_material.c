@@ -1,0 +1,341 @@
+#include "scene/scene_parts.h"
+
+#include "material/material.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What one [[material]] states; not-a-number, NULL and -1: nothing. */
+typedef struct stated_material {
+    const toml_node *node;
+    const char *name, *emissivity_path, *extinction_path, *scattering_path;
+    double emissivity, specular_share, roughness, temperature_k, thickness_cm;
+    double density_kg_m3, specific_heat_j_kg_k, conductivity_w_m_k;
+    double solar_absorptance, exposed_area, extinction_per_km;
+    bool two_sided;
+    layered_matter layered;
+    heat_schedule power;
+} stated_material;
+
+/* Where materials are looked up. */
+typedef struct material_sources {
+    scene_reader *reader;
+    material_library *library;
+    const toml_node *library_node;
+    char *library_folder; /* with a final slash */
+    stated_material *stated;
+    size_t stated_count;
+} material_sources;
+
+static stated_material read_stated(scene_reader *reader, const toml_node *node)
+{
+    scene_table t = scene_table_open(reader, node, "material");
+    stated_material m = {.node = node,
+                         .name = "",
+                         .emissivity = NAN,
+                         .specular_share = NAN,
+                         .roughness = NAN,
+                         .temperature_k = NAN,
+                         .thickness_cm = NAN,
+                         .density_kg_m3 = NAN,
+                         .specific_heat_j_kg_k = NAN,
+                         .conductivity_w_m_k = NAN,
+                         .solar_absorptance = NAN,
+                         .exposed_area = NAN,
+                         .extinction_per_km = NAN,
+                         .layered = layered_matter_default()};
+
+    scene_table_require(&t, "name", "the name that the geometry gives it");
+    scene_table_string(&t, "name", &m.name);
+    scene_table_number(&t, "emissivity", 0.0, 1.0, &m.emissivity);
+    scene_table_file(&t, "emissivity_file", &m.emissivity_path);
+    scene_table_number(&t, "extinction_per_km", 0.0, 1e6, &m.extinction_per_km);
+    scene_table_file(&t, "extinction_file", &m.extinction_path);
+    scene_table_file(&t, "scattering_file", &m.scattering_path);
+    scene_table_number(&t, "specular_share", 0.0, 1.0, &m.specular_share);
+    scene_table_number(&t, "roughness", 0.0, 1.0, &m.roughness);
+    scene_table_number(&t, "temperature_k", 1.0, 6000.0, &m.temperature_k);
+    scene_table_number(&t, "thickness_cm", 1e-4, 1e4, &m.thickness_cm);
+    scene_table_number(&t, "density_kg_m3", .01, 3e4, &m.density_kg_m3);
+    scene_table_number(&t, "specific_heat_j_kg_k", 1.0, 2e4, &m.specific_heat_j_kg_k);
+    scene_table_number(&t, "conductivity_w_m_k", 0.0, 5e3, &m.conductivity_w_m_k);
+    scene_table_number(&t, "solar_absorptance", 0.0, 1.0, &m.solar_absorptance);
+    scene_table_number(&t, "exposed_area", -1.0, 1.0, &m.exposed_area);
+    scene_table_bool(&t, "two_sided", &m.two_sided);
+    scene_read_layered(&t, &m.layered);
+    scene_read_power(&t, &m.power);
+    scene_table_close(&t);
+    return m;
+}
+
+static void read_all_stated(material_sources *from)
+{
+    const toml_node *list = toml_node_get(from->reader->root, "material");
+    const size_t count = list ? toml_node_count(list) : 0;
+
+    if (list && toml_node_kind(list) != TOML_ARRAY) {
+        scene_fail(from->reader, list, "material: expected [[material]] tables");
+        return;
+    }
+    from->stated = calloc(count + 1, sizeof *from->stated);
+    if (!from->stated) {
+        scene_fail(from->reader, list, "no memory for %zu materials", count);
+        return;
+    }
+    for (; from->stated_count < count; from->stated_count++)
+        from->stated[from->stated_count] =
+            read_stated(from->reader, toml_node_at(list, from->stated_count));
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < i; k++)
+            if (!strcmp(from->stated[i].name, from->stated[k].name))
+                scene_fail(from->reader, from->stated[i].node, "%s: there are two materials \"%s\"",
+                           toml_node_name(from->stated[i].node), from->stated[i].name);
+}
+
+static void read_library(material_sources *from)
+{
+    scene_table t =
+        scene_table_open(from->reader, toml_node_get(from->reader->root, "library"), "library");
+    const char *path;
+
+    if (!t.node) return;
+    scene_table_require(&t, "materials", "a .mat file");
+    from->library_node = toml_node_get(t.node, "materials");
+    if (scene_table_file(&t, "materials", &path)) {
+        const char *slash = strrchr(path, '/');
+        from->library_folder = strndup(path, slash ? (size_t)(slash - path + 1) : 0);
+        scene_took(from->reader, material_library_read(&from->library, path));
+    }
+    scene_table_close(&t);
+}
+
+static const stated_material *find_stated(const material_sources *from, const char *name)
+{
+    for (size_t i = 0; i < from->stated_count; i++)
+        if (!strcmp(from->stated[i].name, name)) return &from->stated[i];
+    return NULL;
+}
+
+/* Numbers of materials that only the scene states follow the library's codes. */
+static uint32_t stated_number(const material_sources *from, const stated_material *stated)
+{
+    int highest = 0;
+
+    for (int i = 0; from->library && i < from->library->count; i++)
+        if (from->library->items[i].code > highest) highest = from->library->items[i].code;
+    return (uint32_t)highest + 1u + (uint32_t)(stated - from->stated);
+}
+
+static float either(double stated, double otherwise)
+{
+    return (float)(isnan(stated) ? otherwise : stated);
+}
+
+/* Thesis mode knows 0 and 1 alone. */
+static float specular_share(const scene *s, const stated_material *stated, const material *known)
+{
+    const float fraction = either(stated->specular_share, known->specular_share);
+
+    return s->thesis ? (fraction < 0.5f ? 0.0f : 1.0f) : fraction;
+}
+
+static material_record make_record(const material_sources *from, const material *known,
+                                   const stated_material *stated)
+{
+    static const material unknown = {.density_kg_m3 = 0.0, .exposed_area = .5};
+    static const stated_material nothing = {.emissivity = NAN,
+                                            .specular_share = NAN,
+                                            .roughness = NAN,
+                                            .density_kg_m3 = NAN,
+                                            .specific_heat_j_kg_k = NAN,
+                                            .conductivity_w_m_k = NAN,
+                                            .solar_absorptance = NAN,
+                                            .exposed_area = NAN};
+    const material *base = known ? known : &unknown;
+    const stated_material *over = stated ? stated : &nothing;
+    /* Grey means the same in sunlight unless the scene says more. */
+    const double solar = isnan(over->emissivity) ? base->solar_absorptance : over->emissivity;
+
+    return (material_record){
+        .density_kg_m3 = either(over->density_kg_m3, base->density_kg_m3),
+        .specific_heat_j_kg_k = either(over->specific_heat_j_kg_k, base->specific_heat_j_kg_k),
+        .conductivity_w_m_k = either(over->conductivity_w_m_k, base->conductivity_w_m_k),
+        .solar_absorptance = either(over->solar_absorptance, solar),
+        .thermal_emissivity = either(over->emissivity, base->thermal_emissivity),
+        .exposed_area = either(over->exposed_area, base->exposed_area),
+        .specular_share = specular_share(from->reader->s, over, base),
+        .roughness = from->reader->s->thesis ? 0.0f : either(over->roughness, 0.0),
+        .number = known ? (uint32_t)known->code : stated_number(from, stated),
+    };
+}
+
+/* Sets table or grey emissivity: the scene's file, the scene's number, the library's file. */
+static void read_emissivity(const material_sources *from, scene_material *m, const material *known,
+                            const stated_material *stated)
+{
+    scene_reader *reader = from->reader;
+    const char *path = NULL;
+
+    if (stated && stated->emissivity_path) {
+        path = stated->emissivity_path;
+    } else if (stated && !isnan(stated->emissivity)) {
+        m->grey_emissivity = stated->emissivity;
+        return;
+    } else if (!known || !strcmp(known->emissivity_file, "null")) {
+        scene_fail(reader, stated ? stated->node : from->library_node,
+                   "material %s: has no emissivity, expected emissivity or emissivity_file in "
+                   "[[material]]",
+                   m->name);
+        return;
+    } else {
+        path = scene_add_input(reader, from->library_node, from->library_folder,
+                               known->emissivity_file);
+    }
+    if (path && scene_took(reader, emissivity_read(&m->table, path)))
+        m->record.emissivity_angles = EMISSIVITY_ANGLES;
+}
+
+/* The scene's file, the scene's number, the library's file. */
+static void read_extinction(const material_sources *from, scene_material *m, const material *known,
+                            const stated_material *stated)
+{
+    const toml_node *node = stated ? stated->node : from->library_node;
+    const char *path = stated ? stated->extinction_path : NULL;
+    const double per_km = stated ? stated->extinction_per_km : (double)NAN;
+
+    if (!path && isnan(per_km) && known && strcmp(known->extinction_file, "null") != 0)
+        path = scene_add_input(from->reader, from->library_node, from->library_folder,
+                               known->extinction_file);
+    scene_read_medium(from->reader, m, node, path, per_km);
+    if (stated && stated->scattering_path)
+        scene_read_scattering(from->reader, m, node, stated->scattering_path);
+}
+
+static void check_material(scene_reader *reader, const scene_material *m,
+                           const stated_material *stated, const toml_node *node)
+{
+    const material_record *r = &m->record;
+
+    if (reader->s->thermal == SCENE_THERMAL_FIXED) return;
+    const char *model = scene_thermal_name(reader->s->thermal);
+    if (!(r->density_kg_m3 > 0.0f) || !(r->specific_heat_j_kg_k > 0.0f))
+        scene_fail(reader, node,
+                   "material %s: thermal = \"%s\" needs density_kg_m3, specific_heat_j_kg_k and "
+                   "conductivity_w_m_k",
+                   m->name, model);
+    if (stated && stated->emissivity_path && !(r->thermal_emissivity > 0.0f))
+        scene_fail(reader, node,
+                   "material %s: thermal = \"%s\" needs emissivity, the broad-band one, beside "
+                   "emissivity_file",
+                   m->name, model);
+}
+
+static void add_material(const material_sources *from, const char *name, const material *known,
+                         const stated_material *stated)
+{
+    scene *s = from->reader->s;
+    scene_material *m = &s->materials[s->material_count++];
+
+    m->name = strdup(name);
+    m->record = make_record(from, known, stated);
+    read_extinction(from, m, known, stated);
+    m->record.emissivity_angles = 1;
+    if (m->medium == RECORD_NONE) read_emissivity(from, m, known, stated);
+    m->layered = stated ? stated->layered : layered_matter_default();
+    if (stated) {
+        m->thickness_m = isnan(stated->thickness_cm) ? 0.0 : .01 * stated->thickness_cm;
+        m->temperature_k = isnan(stated->temperature_k) ? 0.0 : stated->temperature_k;
+        m->two_sided = stated->two_sided;
+        m->power = stated->power;
+    }
+    if (m->medium == RECORD_NONE)
+        check_material(from->reader, m, stated, stated ? stated->node : from->library_node);
+}
+
+static void fail_unknown(const material_sources *from, const char *name, const char *user)
+{
+    spelling near = spelling_of(name);
+    char hint[SPELLING_HINT_SIZE];
+
+    for (size_t i = 0; i < from->stated_count; i++) spelling_offer(&near, from->stated[i].name);
+    if (from->library) material_offer_names(from->library, &near);
+    scene_fail(from->reader, from->library_node,
+               "%s: material \"%s\" is neither in the library nor a [[material]]%s", user, name,
+               spelling_hint(&near, "", hint));
+}
+
+/* Finds a material by code, or by name where the code is -1; adds it at its first use.
+ *   user   what names it, for the message */
+static uint32_t use_material(const material_sources *from, const char *name, int code,
+                             const char *user)
+{
+    scene *s = from->reader->s;
+    const stated_material *stated = find_stated(from, name);
+    const material *known = NULL;
+
+    if (from->library)
+        known = code >= 0 && !stated ? material_by_code(from->library, code)
+                                     : material_by_name(from->library, name);
+    if (!known && !stated) {
+        if (code >= 0)
+            scene_fail(from->reader, from->library_node,
+                       "%s: material %d (%s) is not in the library", user, code, name);
+        else
+            fail_unknown(from, name, user);
+        return RECORD_NONE;
+    }
+    const char *own = known ? known->name : name;
+    for (uint32_t i = 0; i < s->material_count; i++)
+        if (!strcmp(s->materials[i].name, own)) return i;
+    add_material(from, own, known, stated);
+    return s->material_count - 1;
+}
+
+/* Rows of the emissivity table: of all materials, then of all their diffuse lobes. */
+static void place_rows(scene *s)
+{
+    uint32_t row = 0;
+
+    for (uint32_t i = 0; i < s->material_count; i++) {
+        s->materials[i].record.emissivity_first = row;
+        row += s->materials[i].record.emissivity_angles;
+    }
+    for (uint32_t i = 0; i < s->material_count; i++) {
+        const uint32_t rows = scene_lobe_rows(s, i);
+        s->materials[i].record.lobe_first = rows > 0 ? row : RECORD_NONE;
+        row += rows;
+    }
+}
+
+static void use_all(const material_sources *from, const char *ground_material)
+{
+    scene *s = from->reader->s;
+    const geometry *g = s->shape;
+
+    s->ground_material = RECORD_NONE;
+    s->materials = calloc(g->material_count + 1, sizeof *s->materials);
+    s->material_of = calloc(g->material_count + 1, sizeof *s->material_of);
+    if (!s->materials || !s->material_of) {
+        scene_fail(from->reader, NULL, "no memory for %u materials", g->material_count);
+        return;
+    }
+    for (uint32_t i = 0; i < g->material_count; i++)
+        s->material_of[i] =
+            use_material(from, g->materials[i].name, g->materials[i].code, g->materials[i].path);
+    if (ground_material)
+        s->ground_material = use_material(from, ground_material, -1, "ground_material");
+    place_rows(s);
+}
+
+void scene_read_materials(scene_reader *reader, const char *ground_material)
+{
+    material_sources from = {.reader = reader};
+
+    read_library(&from);
+    read_all_stated(&from);
+    if (reader->s->shape) use_all(&from, ground_material);
+    material_library_free(from.library);
+    free(from.library_folder);
+    free(from.stated);
+}

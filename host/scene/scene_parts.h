@@ -1,0 +1,49 @@
+/* Scene parts: the tables of scene.toml, one function each, in the order in which they need each
+ * other. Failures are counted in the reader. */
+#ifndef SCENE_PARTS_H
+#define SCENE_PARTS_H
+
+#include "scene/scene_table.h"
+
+/* [site] and [weather]; the name of the ground's material is set where there is one. */
+void scene_read_site(scene_reader *reader, const char **out_ground_material);
+void scene_read_weather(scene_reader *reader);
+
+/* [camera], [[band]], [render]. */
+void scene_read_camera(scene_reader *reader);
+void scene_read_bands(scene_reader *reader);
+void scene_read_render(scene_reader *reader);
+
+/* [sensor]; after camera and bands. */
+void scene_read_detector(scene_reader *reader);
+
+/* [atmosphere]; after the bands. */
+void scene_read_atmosphere(scene_reader *reader);
+
+/* [[geometry]]. */
+void scene_read_geometry(scene_reader *reader);
+
+/* The keys of a [[material]] that thermal = "layered" uses; without them `out` is left as it is. */
+void scene_read_layered(scene_table *t, layered_matter *out);
+
+/* Makes a material transmissive where it has an extinction: a file, or a number unless that is
+ * not-a-number. Extinction per m, at most TRANSMISSION_MEDIA materials.
+ *   node   what the message about a material too many names */
+void scene_read_medium(scene_reader *reader, scene_material *m, const toml_node *node,
+                       const char *path, double per_km);
+
+/* Makes a transmissive material scatter by a table.
+ *   node   what the message about an opaque one names */
+void scene_read_scattering(scene_reader *reader, scene_material *m, const toml_node *node,
+                           const char *path);
+
+/* Checks that bodies are closed, face outwards and have a temperature; when all else is read. */
+void scene_check_media(scene_reader *reader);
+
+/* The power by the clock of a [[material]]; `out` is empty. */
+void scene_read_power(scene_table *t, heat_schedule *out);
+
+/* [library] and [[material]]; after geometry and render: only what is used is kept. */
+void scene_read_materials(scene_reader *reader, const char *ground_material);
+
+#endif

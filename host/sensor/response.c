@@ -1,0 +1,202 @@
+#include "sensor/response.h"
+
+#include "files/record_file.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double LEAST_UM = 0.2, MOST_UM = 50.0;
+
+/* A Gaussian's points: every 1/128 of its width, 2 widths to both sides. */
+enum { GAUSSIAN_PER_WIDTH = 128, GAUSSIAN_WIDTHS = 2, POINT_LIMIT = 1 << 16 };
+
+static status allocate(response **out, int limit)
+{
+    status rc = STATUS_OK;
+    response *r = calloc(1, sizeof *r);
+
+    NEED(r, STATUS_MEMORY, "no memory for a response");
+    r->wavelength_um = calloc((size_t)limit, sizeof(double));
+    r->value = calloc((size_t)limit, sizeof(double));
+    NEED(r->wavelength_um && r->value, STATUS_MEMORY, "no memory for a response");
+    *out = r;
+    r = NULL;
+out:
+    response_free(r);
+    return rc;
+}
+
+void response_free(response *r)
+{
+    if (!r) return;
+    free(r->wavelength_um);
+    free(r->value);
+    free(r);
+}
+
+typedef enum unit { UNIT_UM, UNIT_NM, UNIT_CM1, UNIT_COUNT } unit;
+
+static status read_unit(unit *out, record_file *file)
+{
+    static const char *const headings[UNIT_COUNT] = {
+        "wavelength_um,response", "wavelength_nm,response", "wavenumber_cm1,response"};
+    static const char expected[] =
+        "wavelength_um,response or wavelength_nm,response or wavenumber_cm1,response";
+    status rc = STATUS_OK;
+    const char *text;
+    char packed[64] = "";
+    int kind = 0;
+
+    TRY(record_file_header(file, NULL));
+    TRY(record_file_text(file, &text, expected));
+    for (size_t n = 0; *text && n + 1 < sizeof packed; text++)
+        if (*text != ' ') packed[n++] = *text;
+    while (kind < UNIT_COUNT && strcmp(packed, headings[kind])) kind++;
+    if (kind == UNIT_COUNT) rc = record_file_reject(file, "%s", expected);
+    *out = (unit)kind;
+out:
+    return rc;
+}
+
+static double in_um(unit of, double x)
+{
+    return of == UNIT_UM ? x : of == UNIT_NM ? 1e-3 * x : 1e4 / x;
+}
+
+static status read_point(response *r, unit of, record_file *file)
+{
+    status rc = STATUS_OK;
+    const int n = r->count;
+    double *const l = r->wavelength_um;
+    double pair[2];
+
+    TRY(record_file_numbers(file, 2, pair, "a wavelength and a response"));
+    l[n] = in_um(of, pair[0]);
+    r->value[n] = pair[1];
+    if (!(l[n] >= LEAST_UM && l[n] <= MOST_UM))
+        rc = record_file_reject(file, "a wavelength of .2 to 50 um");
+    else if (pair[1] < 0.0)
+        rc = record_file_reject(file, "a response of 0 or more");
+    else if ((n > 0 && l[n] == l[n - 1]) || (n > 1 && (l[n] > l[n - 1]) != (l[1] > l[0])))
+        rc = record_file_reject(file, "wavelengths that only rise or only fall");
+    r->count++;
+out:
+    return rc;
+}
+
+static void turn_round(double *values, int count)
+{
+    for (int i = 0, k = count - 1; i < k; i++, k--) {
+        const double kept = values[i];
+        values[i] = values[k];
+        values[k] = kept;
+    }
+}
+
+static status read_points(response *r, unit of, record_file *file)
+{
+    status rc = STATUS_OK;
+    double peak = 0.0;
+
+    while (r->count < 2 || !record_file_at_end(file)) {
+        if (r->count == POINT_LIMIT) {
+            rc = record_file_reject(file, "at most %d points", POINT_LIMIT);
+            goto out;
+        }
+        TRY(read_point(r, of, file));
+        peak = fmax(peak, r->value[r->count - 1]);
+    }
+    if (!(peak > 0.0)) {
+        rc = record_file_reject(file, "a response above 0 in one of the lines");
+        goto out;
+    }
+    for (int i = 0; i < r->count; i++) r->value[i] /= peak;
+    if (r->wavelength_um[0] < r->wavelength_um[1]) goto out;
+    turn_round(r->wavelength_um, r->count);
+    turn_round(r->value, r->count);
+out:
+    return rc;
+}
+
+status response_read(response **out, const char *path)
+{
+    status rc = STATUS_OK;
+    record_file *file = NULL;
+    response *r = NULL;
+    unit of;
+
+    TRY(record_file_open(&file, path));
+    TRY(allocate(&r, POINT_LIMIT));
+    TRY(read_unit(&of, file));
+    TRY(read_points(r, of, file));
+    *out = r;
+    r = NULL;
+out:
+    response_free(r);
+    record_file_free(file);
+    return rc;
+}
+
+status response_gaussian(response **out, double centre_um, double fwhm_um)
+{
+    status rc = STATUS_OK;
+    const int half = GAUSSIAN_WIDTHS * GAUSSIAN_PER_WIDTH;
+    response *r = NULL;
+
+    TRY(allocate(&r, 2 * half + 1));
+    for (int i = -half; i <= half; i++, r->count++) {
+        const double widths = (double)i / GAUSSIAN_PER_WIDTH;
+        r->wavelength_um[r->count] = centre_um + widths * fwhm_um;
+        r->value[r->count] = exp(-4.0 * M_LN2 * widths * widths);
+    }
+    *out = r;
+out:
+    return rc;
+}
+
+/* First of the two points that a wavelength lies between; 0 before them all, count - 2 behind. */
+static int piece_at(const response *r, double wavelength_um)
+{
+    int low = 0, high = r->count - 1;
+
+    while (high - low > 1) {
+        const int middle = (low + high) / 2;
+        if (r->wavelength_um[middle] <= wavelength_um)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static double on_piece(const response *r, int piece, double wavelength_um)
+{
+    const double *l = r->wavelength_um + piece, *v = r->value + piece;
+
+    return v[0] + (wavelength_um - l[0]) / (l[1] - l[0]) * (v[1] - v[0]);
+}
+
+double response_at(const response *r, double wavelength_um)
+{
+    if (wavelength_um < r->wavelength_um[0] || wavelength_um > r->wavelength_um[r->count - 1])
+        return 0.0;
+    return on_piece(r, piece_at(r, wavelength_um), wavelength_um);
+}
+
+/* Simpson's rule is exact here: a product of two straight lines on every piece. */
+double response_integral(const response *r, double from_um, double to_um)
+{
+    const double low = fmax(fmin(from_um, to_um), r->wavelength_um[0]);
+    const double high = fmin(fmax(from_um, to_um), r->wavelength_um[r->count - 1]);
+    double sum = 0.0;
+
+    for (int i = piece_at(r, low); i + 1 < r->count && r->wavelength_um[i] < high; i++) {
+        const double a = fmax(low, r->wavelength_um[i]), c = fmin(high, r->wavelength_um[i + 1]);
+        const double b = 0.5 * (a + c), scale = (c - a) / (6.0 * (to_um - from_um));
+        if (!(c > a)) continue;
+        sum += scale * (on_piece(r, i, a) * (to_um - a) + 4.0 * on_piece(r, i, b) * (to_um - b) +
+                        on_piece(r, i, c) * (to_um - c));
+    }
+    return sum;
+}

@@ -1,0 +1,18 @@
+#include "sky/planck.h"
+
+#include "kernels/constants.h"
+
+#include <math.h>
+
+planck_terms planck_at(double wavelength_um, bool thesis)
+{
+    const double first = thesis ? PLANCK_FIRST_THESIS : PLANCK_FIRST;
+    const double second = thesis ? PLANCK_SECOND_THESIS : PLANCK_SECOND;
+
+    return (planck_terms){first / pow(wavelength_um, 5.0), second / wavelength_um};
+}
+
+double planck_spectral(planck_terms terms, double temperature_k)
+{
+    return terms.first / expm1(terms.second / temperature_k);
+}

@@ -1,0 +1,53 @@
+/* Weather series: what a station measured, sample by sample, into the history of a site's day and
+ * the day before, by the site's clock. */
+#ifndef WEATHER_SERIES_H
+#define WEATHER_SERIES_H
+
+#include "sky/site.h"
+#include "weather/weather.h"
+
+enum {
+    WEATHER_SERIES_AIR_K,
+    WEATHER_SERIES_DEW_POINT_K,
+    WEATHER_SERIES_PRESSURE_PA,
+    WEATHER_SERIES_WIND_M_S,
+    WEATHER_SERIES_DIRECT_W_M2,  /* normal to the beam */
+    WEATHER_SERIES_DIFFUSE_W_M2, /* on a level plane */
+    WEATHER_SERIES_LONGWAVE_W_M2,
+    WEATHER_SERIES_COVER, /* of clouds, 0..1 */
+    WEATHER_SERIES_RAIN_M_S,
+    WEATHER_SERIES_COUNT
+};
+
+/* What came down in a span of time, and the air at its end; not-a-number where it is missing. */
+typedef struct weather_sample {
+    double end_s; /* UTC since 1970 */
+    double value[WEATHER_SERIES_COUNT];
+} weather_sample;
+
+typedef struct weather_series {
+    const char *path; /* for messages */
+    char name[64];    /* of the station */
+    double latitude_deg, longitude_deg;
+    double span_s; /* of every sample */
+    size_t count;
+    weather_sample *sample; /* shape (count), in the order of time */
+} weather_series;
+
+/* Adds a sample to a series; `room` is what it has room for. */
+status weather_series_add(weather_series *series, size_t *room, const weather_sample *sample);
+void weather_series_free(weather_series *series);
+
+/* Makes 193 records, 15 minutes apart, whose hours 24 to 48 are the day of the site's time.
+ *   spans up to 15 min   means of what is nearer to a record than to its neighbours; of the beam
+ *                        over the time that the sun is up
+ *   longer spans         air linear from end to end; light with the course of a clear sky inside
+ *                        each span (clear_sky.h), scaled to its mean
+ * Up to an hour that is missing is bridged linearly; hours outside the series take the same clock
+ * time of the other day, with a warning. Missing longwave follows from the air (weather_record),
+ * cloud is of the altostratus kind (assumed), rain as warm as the air.
+ * Warns where the station is more than 50 km from the site. Fails with STATUS_FORMAT where the
+ * series has nothing of the site's day, or lacks more. */
+status weather_series_history(weather **out, const weather_series *series, const site *place);
+
+#endif

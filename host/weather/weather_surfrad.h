@@ -1,0 +1,15 @@
+/* Weather SURFRAD: days as NOAA's stations measure them, every one or three minutes. Format: README
+ * of the SURFRAD archive. */
+#ifndef WEATHER_SURFRAD_H
+#define WEATHER_SURFRAD_H
+
+#include "sky/site.h"
+#include "weather/weather.h"
+
+/* Takes one daily file, or several of a station one behind the other. Times are UTC and those of
+ * the end of a sample; west longitudes may stand there without a sign. A value of -9999.9, or one
+ * whose flag is 1, is missing.
+ * Fails with STATUS_FORMAT where the format does not hold, or as weather_series_history does. */
+status weather_surfrad_read(weather **out, const char *path, const site *place);
+
+#endif

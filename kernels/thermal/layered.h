@@ -1,0 +1,354 @@
+/* Layered: the heat balance of one facet of several layers, beyond the thesis' THERM: unequal nodes,
+ * a condition behind, evaporation. Backward Euler, relinearised each sub-step.
+ *   surroundings, sky, rain   as thermal.h has them; the whole front is exposed; or longwave as it
+ *                             comes from sky and facets
+ *   evaporation               rho L (q*(Ts) - qa) / (ra + rs), ra = rho cp / h; none from dry matter
+ *   film                      rain that stays, up to a limit, evaporates without rs
+ *   along the facet           heat from its neighbours is spread over the nodes of its own material by
+ *                             their thickness
+ *   start                     the first day over and over until no node moves by .01 K */
+#ifndef LAYERED_KERNEL_H
+#define LAYERED_KERNEL_H
+
+#include "kernels/thermal/thermal.h"
+
+#define LAYERED_NODES 8
+#define LAYERED_DAYS 40 /* of the start, at most */
+#define LAYERED_SETTLED_K 0.01f
+#define LAYERED_RAIN_J_M3_K 4.182e6f /* density times specific heat of water */
+
+#define LAYERED_ADIABATIC 0u
+#define LAYERED_AIR 1u    /* air and black surroundings at its temperature */
+#define LAYERED_STATED 2u /* the back face keeps a temperature */
+
+/* A facet. The ladder runs from the front: conductance 0 from the face to node 0, j from node j - 1
+ * to node j, the last from the last node to the back face. */
+typedef struct layered_record {
+    float capacity_j_m2_k[LAYERED_NODES];
+    float conductance_w_m2_k[LAYERED_NODES + 1];
+    float normal[3];
+    float absorptance, emissivity;
+    float power_w_m2;
+    uint two_sided;
+    uint back; /* LAYERED_... */
+    float back_k;
+    float resistance_day_s_m, resistance_night_s_m; /* below 0: dry */
+    float film_limit_kg_m2;
+    float stated_temperature_k; /* 0: to be computed */
+    uint material;
+    uint lateral_column; /* of rows of heat along the facet, counted from 1; 0: none */
+    float lateral_fraction[LAYERED_NODES]; /* of that heat, for each node; sum 1 */
+    float sky_fraction;                    /* of the view */
+    uint received_column; /* of rows of longwave that reaches the front, counted from 1; 0: none */
+    uint unused[2];
+} layered_record;
+RECORD_SIZE(layered_record, 176);
+
+typedef struct layered_body {
+    thermal_body face; /* capacity and conductance are not used */
+    lanes capacity[LAYERED_NODES], conductance[LAYERED_NODES + 1];
+    lanes is_stated, back_k;
+    lanes day_s_m, night_s_m, film_limit;
+    lanes stated_k;
+    lanes lateral_fraction[LAYERED_NODES];
+    uint material[LANES_WIDTH];
+    uint lateral_column[LANES_WIDTH], received_column[LANES_WIDTH];
+} layered_body;
+
+typedef struct layered_state {
+    lanes front_k, back_k;
+    lanes node_k[LAYERED_NODES];
+    lanes film_kg_m2;
+} layered_state;
+
+/* What the air does to a wet surface: the same for all lanes. */
+typedef struct layered_air {
+    float humidity, pressure_pa, density_kg_m3;
+    convection_air convection;
+    float is_day;
+    float rain_kg_m2_s;
+} layered_air;
+
+#define LAYERED_SET(body, name, lane, value) LANES_SET((body)->name, lane, value)
+
+static inline void layered_set_body(layered_body *body, int lane, const layered_record *record)
+{
+    for (int i = 0; i < 3; i++) LAYERED_SET(body, face.normal[i], lane, record->normal[i]);
+    for (int i = 0; i < LAYERED_NODES; i++)
+        LAYERED_SET(body, capacity[i], lane, record->capacity_j_m2_k[i]);
+    for (int i = 0; i <= LAYERED_NODES; i++)
+        LAYERED_SET(body, conductance[i], lane, record->conductance_w_m2_k[i]);
+    LAYERED_SET(body, face.two_sided, lane, (float)record->two_sided);
+    LAYERED_SET(body, face.slab, lane, 1.0f);
+    LAYERED_SET(body, face.front, lane, 1.0f);
+    LAYERED_SET(body, face.back, lane, record->back == LAYERED_AIR ? 1.0f : 0.0f);
+    LAYERED_SET(body, face.absorptance, lane, record->absorptance);
+    LAYERED_SET(body, face.emissivity, lane, record->emissivity);
+    LAYERED_SET(body, face.power_w_m2, lane, record->power_w_m2);
+    LAYERED_SET(body, is_stated, lane, record->back == LAYERED_STATED ? 1.0f : 0.0f);
+    LAYERED_SET(body, back_k, lane, record->back_k);
+    LAYERED_SET(body, day_s_m, lane, record->resistance_day_s_m);
+    LAYERED_SET(body, night_s_m, lane, record->resistance_night_s_m);
+    LAYERED_SET(body, film_limit, lane, record->film_limit_kg_m2);
+    LAYERED_SET(body, stated_k, lane, record->stated_temperature_k);
+    for (int i = 0; i < LAYERED_NODES; i++)
+        LAYERED_SET(body, lateral_fraction[i], lane, record->lateral_fraction[i]);
+    body->material[lane] = record->material;
+    LAYERED_SET(body, face.sky, lane, record->sky_fraction);
+    body->lateral_column[lane] = record->lateral_column;
+    body->received_column[lane] = record->received_column;
+}
+
+static inline layered_air layered_air_of(forcing_record now)
+{
+    const float temperatures = now.air_temperature_k * (1.0f + 0.608f * now.specific_humidity);
+    layered_air air;
+
+    air.humidity = now.specific_humidity;
+    air.pressure_pa = now.pressure_pa;
+    air.density_kg_m3 = now.pressure_pa / (287.05f * temperatures);
+    air.convection = thermal_air_of(now);
+    air.is_day = now.sun[2] > 0.0f ? 1.0f : 0.0f;
+    air.rain_kg_m2_s = 1000.0f * now.rain_w_m2_k / LAYERED_RAIN_J_M3_K;
+    return air;
+}
+
+/* Heat that evaporation takes, and how much more per kelvin; Magnus as weather.c has it. */
+static inline thermal_flux layered_latent(const layered_body *body, layered_air air, lanes face_k,
+                                          lanes film_kg_m2)
+{
+    const lanes none = 0.0f, one = 1.0f;
+    const lanes stated = air.is_day > 0.0f ? body->day_s_m : body->night_s_m;
+    const lanes surface_s_m = film_kg_m2 > none ? none : stated;
+    thermal_flux latent = {none, none};
+
+    if (!lanes_any(surface_s_m >= none)) return latent;
+    const lanes celsius = face_k - ZERO_CELSIUS_K, reach = celsius + 243.12f;
+    const lanes vapour_pa = 611.2f * exp(17.62f * celsius / reach);
+    const lanes rest_pa = air.pressure_pa - 0.378f * vapour_pa;
+    const lanes humidity = 0.622f * vapour_pa / rest_pa;
+    const lanes slope = humidity * (17.62f * 243.12f) / (reach * reach) * air.pressure_pa / rest_pa;
+    const lanes evaporates = surface_s_m < none ? none : one;
+    /* ra = rho cp / h, in s/m */
+    const float heat_j_m3_k = air.density_kg_m3 * 1005.0f, least = 1e-3f;
+    lanes air_s_m = (lanes)(heat_j_m3_k / fmax(air.convection.wind_w_m2_k, least));
+    if (air.convection.law != CONVECTION_WIND)
+        air_s_m = heat_j_m3_k /
+                  fmax(convection_of(air.convection, body->face.normal[2], face_k), (lanes)least);
+    const lanes vaporisation = 2.501e6f - 2361.0f * celsius; /* J/kg */
+    const lanes fraction = evaporates * air.density_kg_m3 * vaporisation / (air_s_m + surface_s_m);
+
+    latent.w_m2 = fraction * (humidity - air.humidity);
+    latent.w_m2_k = fraction * slope;
+    return latent;
+}
+
+typedef struct layered_elimination {
+    lanes passed[LAYERED_NODES + 1]; /* share of what stands behind that node j passes on */
+    lanes inverse[LAYERED_NODES];
+    lanes front_taken;          /* what all nodes take up per kelvin of node 0 */
+    lanes back_slope, back_way; /* and 1 / what the back's face gives inwards and outwards */
+} layered_elimination;
+
+/* As thermal_eliminate, for unequal nodes. */
+static inline layered_elimination layered_eliminate(const layered_body *body, lanes back_slope,
+                                                    float step_s)
+{
+    const int last = LAYERED_NODES - 1;
+    const lanes none = 0.0f, one = 1.0f, behind = body->conductance[LAYERED_NODES];
+    layered_elimination e;
+    lanes taken;
+
+    e.back_slope = back_slope;
+    e.back_way = 1.0f / (behind + back_slope);
+    e.passed[LAYERED_NODES] = body->is_stated != none ? one : behind * e.back_way;
+    taken = body->capacity[last] / step_s +
+            (body->is_stated != none ? behind : back_slope * e.passed[LAYERED_NODES]);
+    for (int j = last; j > 0; j--) {
+        e.inverse[j] = 1.0f / (body->conductance[j] + taken);
+        e.passed[j] = body->conductance[j] * e.inverse[j];
+        taken = body->capacity[j - 1] / step_s + taken * e.passed[j];
+    }
+    e.inverse[0] = none;
+    e.passed[0] = none;
+    e.front_taken = taken;
+    return e;
+}
+
+/* What the front takes in, linear about its temperature at the start of a step. */
+typedef struct layered_front {
+    thermal_flux all, latent;
+    lanes way;      /* 1 / what the face gives to node 0 and outwards, per kelvin */
+    lanes fraction; /* of what reaches the face that goes on to node 0 */
+} layered_front;
+
+static inline layered_front layered_front_of(const layered_state *s, const layered_body *body,
+                                             const thermal_load *load, layered_air air)
+{
+    layered_front front;
+
+    front.all = thermal_front_flux(&body->face, load, s->front_k);
+    front.latent = layered_latent(body, air, s->front_k, s->film_kg_m2);
+    front.all.w_m2 -= front.latent.w_m2;
+    front.all.w_m2_k += front.latent.w_m2_k;
+    front.way = 1.0f / (body->conductance[0] + front.all.w_m2_k);
+    front.fraction = body->conductance[0] * front.way;
+    return front;
+}
+
+static inline void layered_step_film(layered_state *s, const layered_body *body,
+                                     const layered_front *front, lanes old_front_k, layered_air air,
+                                     float step_s)
+{
+    const lanes none = 0.0f;
+
+    if (!(air.rain_kg_m2_s > 0.0f) && !lanes_any(s->film_kg_m2 > none)) return;
+    const lanes lost_w_m2 = front->latent.w_m2 + front->latent.w_m2_k * (s->front_k - old_front_k);
+    const lanes vaporisation = 2.501e6f - 2361.0f * (old_front_k - ZERO_CELSIUS_K);
+    const lanes film = s->film_kg_m2 +
+                       step_s * air.rain_kg_m2_s * fmax(body->face.normal[2], none) -
+                       (s->film_kg_m2 > none ? step_s * lost_w_m2 / vaporisation : none);
+
+    s->film_kg_m2 = fmin(fmax(film, none), body->film_limit);
+}
+
+/* One implicit step; film and face change with it.
+ *   lateral_w_m2   heat that comes along the facet */
+static inline void layered_step(layered_state *s, const layered_body *body,
+                                const layered_elimination *e, const thermal_load *load,
+                                layered_air air, lanes lateral_w_m2, float step_s)
+{
+    const int last = LAYERED_NODES - 1;
+    const lanes behind = body->conductance[LAYERED_NODES], before = body->conductance[0];
+    const layered_front front = layered_front_of(s, body, load, air);
+    const thermal_flux back = thermal_back_flux(&body->face, load, s->back_k);
+    const lanes none = 0.0f, old_front_k = s->front_k;
+    const lanes from_back = body->is_stated != none
+                                ? behind * (body->back_k - s->node_k[last])
+                                : e->passed[LAYERED_NODES] *
+                                      (back.w_m2 + e->back_slope * (s->back_k - s->node_k[last]));
+    lanes right[LAYERED_NODES], rise;
+
+    right[last] = body->conductance[last] * (s->node_k[last - 1] - s->node_k[last]) + from_back +
+                  body->lateral_fraction[last] * lateral_w_m2;
+    for (int j = last - 1; j > 0; j--)
+        right[j] = fma(e->passed[j + 1], right[j + 1],
+                       body->conductance[j] * (s->node_k[j - 1] - s->node_k[j]) +
+                           body->conductance[j + 1] * (s->node_k[j + 1] - s->node_k[j]) +
+                           body->lateral_fraction[j] * lateral_w_m2);
+    right[0] = body->conductance[1] * (s->node_k[1] - s->node_k[0]) +
+               body->lateral_fraction[0] * lateral_w_m2 + e->passed[1] * right[1] +
+               front.fraction * (front.all.w_m2 + front.all.w_m2_k * (s->front_k - s->node_k[0]));
+    rise = right[0] / (e->front_taken + front.fraction * front.all.w_m2_k);
+    s->node_k[0] += rise;
+    for (int j = 1; j <= last; j++) {
+        rise = fma(e->passed[j], rise, right[j] * e->inverse[j]);
+        s->node_k[j] += rise;
+    }
+    s->front_k += (front.all.w_m2 - before * (s->front_k - s->node_k[0])) * front.way;
+    s->back_k =
+        body->is_stated != none
+            ? body->back_k
+            : s->back_k + (back.w_m2 - behind * (s->back_k - s->node_k[last])) * e->back_way;
+    layered_step_film(s, body, &front, old_front_k, air, step_s);
+}
+
+/* Temperature that goes with heat along the facet: the mean over the nodes of its own material. */
+static inline lanes layered_lateral_k(const layered_state *s, const layered_body *body)
+{
+    lanes sum = 0.0f;
+
+    for (int j = 0; j < LAYERED_NODES; j++) sum += body->lateral_fraction[j] * s->node_k[j];
+    return sum;
+}
+
+/* Rise of that temperature in a step for each W m-2 that comes along the facet. */
+static inline lanes layered_lateral_gain(const layered_body *body, const layered_elimination *e,
+                                         const layered_front *front)
+{
+    lanes right[LAYERED_NODES], rise, sum;
+
+    right[LAYERED_NODES - 1] = body->lateral_fraction[LAYERED_NODES - 1];
+    for (int j = LAYERED_NODES - 2; j >= 0; j--)
+        right[j] = body->lateral_fraction[j] + e->passed[j + 1] * right[j + 1];
+    rise = right[0] / (e->front_taken + front->fraction * front->all.w_m2_k);
+    sum = body->lateral_fraction[0] * rise;
+    for (int j = 1; j < LAYERED_NODES; j++) {
+        rise = right[j] * e->inverse[j] + e->passed[j] * rise;
+        sum += body->lateral_fraction[j] * rise;
+    }
+    return sum;
+}
+
+/* Goes from one record of the weather to the next. Humidity, rain and day are held like the sun.
+ *   lateral_w_m2   heat along the facet in the first and in the second half */
+static inline void layered_advance(layered_state *state, const layered_body *body,
+                                   const thermal_load *before, const thermal_load *after,
+                                   layered_air air_before, layered_air air_after,
+                                   const lanes lateral_w_m2[2], float step_s)
+{
+    const int count = thermal_sub_steps(step_s);
+    const thermal_flux back = thermal_back_flux(&body->face, before, state->back_k);
+    const layered_elimination e = layered_eliminate(body, back.w_m2_k, step_s / (float)count);
+
+    for (int i = 0; i < count; i++) {
+        const thermal_load load = thermal_load_between(before, after, (float)(i + 1) / (float)count,
+                                                       thermal_sub_direct(before, after, i, count));
+        layered_step(state, body, &e, &load, 2 * i < count ? air_before : air_after,
+                     lateral_w_m2[2 * i >= count], step_s / (float)count);
+    }
+}
+
+/* A profile without currents but for what passes through: from face to face by resistance. */
+static inline void layered_profile(layered_state *out, const layered_body *body, lanes front_k,
+                                   lanes back_k)
+{
+    lanes resistance[LAYERED_NODES], all = 0.0f;
+
+    for (int j = 0; j < LAYERED_NODES; j++) {
+        all += 1.0f / body->conductance[j];
+        resistance[j] = all;
+    }
+    all += 1.0f / body->conductance[LAYERED_NODES];
+    for (int j = 0; j < LAYERED_NODES; j++)
+        out->node_k[j] = front_k + (back_k - front_k) * (resistance[j] / all);
+    out->front_k = front_k;
+    out->back_k = back_k;
+}
+
+/* A guess, without evaporation: the start's days improve it. */
+static inline layered_state layered_guess(const layered_body *body, const thermal_load *load)
+{
+    const lanes none = 0.0f;
+    const lanes air_k = (lanes)load->air_k;
+    layered_state state;
+
+    layered_profile(&state, body, air_k, body->is_stated != none ? body->back_k : air_k);
+    state.film_kg_m2 = none;
+    return state;
+}
+
+/* Moves the nodes to where the means of a day put them, so that deep ones need no month: each keeps
+ * its own swing and takes the mean of the profile between the faces' means. */
+static inline void layered_settle(layered_state *state, const layered_body *body,
+                                  const layered_state *mean)
+{
+    const lanes none = 0.0f;
+    const lanes passes = body->is_stated != none || body->face.back != none ? 1.0f + none : none;
+    layered_state target;
+
+    layered_profile(&target, body, mean->front_k,
+                    mean->front_k + passes * (mean->back_k - mean->front_k));
+    for (int j = 0; j < LAYERED_NODES; j++) state->node_k[j] += target.node_k[j] - mean->node_k[j];
+}
+
+static inline void layered_choose(layered_state *state, lanes_mask mask, const layered_state *other)
+{
+    state->front_k = mask ? other->front_k : state->front_k;
+    state->back_k = mask ? other->back_k : state->back_k;
+    state->film_kg_m2 = mask ? other->film_kg_m2 : state->film_kg_m2;
+    for (int j = 0; j < LAYERED_NODES; j++)
+        state->node_k[j] = mask ? other->node_k[j] : state->node_k[j];
+}
+
+#endif

@@ -1,0 +1,108 @@
+#include "../text_file.h"
+
+#include "material/emissivity.h"
+
+enum { ROW_SIZE = 20, LINES_PER_ANGLE = 1 + EMISSIVITY_WAVENUMBERS };
+
+static char *table;
+
+/* Thesis Appendix A item 7 (new asphalt) prints parts of the angles 0, 1 and 90. The rows and angles
+ * that it leaves out are filled in: at 0 to 89 degrees 1 outside and .961 inside 1250..750 cm-1, at
+ * 90 degrees 1 and 0. */
+static int fill_table(void **state)
+{
+    char *to = table = malloc((size_t)EMISSIVITY_ANGLES * LINES_PER_ANGLE * ROW_SIZE);
+
+    if (!table) return -1;
+    for (int angle = 0; angle < EMISSIVITY_ANGLES; angle++) {
+        to += sprintf(to, "%d\n", angle);
+        for (int wavenumber = 39850; wavenumber >= 350; wavenumber -= 100) {
+            const double inside = angle < 90 ? 0.961 : 0.0;
+            to += sprintf(to, "%d %f\n", wavenumber,
+                          wavenumber <= 1250 && wavenumber >= 750 ? inside : 1.0);
+        }
+    }
+    return text_file_setup(state);
+}
+
+static int free_table(void **state)
+{
+    free(table);
+    return text_file_teardown(state);
+}
+
+static void the_printed_asphalt_is_read(void **state)
+{
+    emissivity *e = NULL;
+
+    (void)state;
+    assert_int_equal(emissivity_read(&e, text_file(table)), STATUS_OK);
+
+    assert_float_equal(e->value[0][0], 1.0f, 0.0f);     /* 39850 cm-1 */
+    assert_float_equal(e->value[0][385], 1.0f, 0.0f);   /* 1350 */
+    assert_float_equal(e->value[0][386], 0.961f, 0.0f); /* 1250 */
+    assert_float_equal(e->value[0][391], 0.961f, 0.0f); /* 750 */
+    assert_float_equal(e->value[0][392], 1.0f, 0.0f);   /* 650 */
+    assert_float_equal(e->value[90][388], 0.0f, 0.0f);  /* 1050 */
+    assert_float_equal(e->value[90][395], 1.0f, 0.0f);  /* 350 */
+    emissivity_free(e);
+}
+
+static void a_header_is_passed_over(void **state)
+{
+    emissivity *e = NULL;
+
+    (void)state;
+    assert_int_equal(emissivity_read(&e, text_file_with(table, "0\n", "# asphalt\n# new\n0\n")),
+                     STATUS_OK);
+    assert_float_equal(e->value[0][386], 0.961f, 0.0f);
+    emissivity_free(e);
+}
+
+static void a_wrong_row_is_refused_at_its_line(void **state)
+{
+    static const struct {
+        const char *old, *new;
+        int line;
+        const char *expected;
+    } wrong[] = {
+        {"39750 1.000000", "39750 1.100000", 3, "39750 and an emissivity from 0 to 1"},
+        {"39750 1.000000", "39750 -.1", 3, "39750 and an emissivity from 0 to 1"},
+        {"39750 1.000000", "39650 1.000000", 3, "39750 and an emissivity from 0 to 1"},
+        {"39750 1.000000", "39750", 3, "a wavenumber and an emissivity"},
+        {"\n1\n", "\n2\n", 398, "an angle in degrees from 1 to 1"},
+        {"\n90\n", "\n", 90 * LINES_PER_ANGLE + 1, "an angle in degrees"},
+    };
+    emissivity *e = NULL;
+
+    (void)state;
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        assert_refused(emissivity_read(&e, text_file_with(table, wrong[i].old, wrong[i].new)),
+                       wrong[i].line, wrong[i].expected);
+    assert_null(e);
+}
+
+static void a_table_that_ends_early_is_refused(void **state)
+{
+    emissivity *e = NULL;
+    char *end = strrchr(table, '3'); /* the last row's 350 */
+    const char kept = *end;
+
+    (void)state;
+    *end = '\0';
+    assert_refused(emissivity_read(&e, text_file(table)), EMISSIVITY_ANGLES * LINES_PER_ANGLE,
+                   "the file ends");
+    *end = kept;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_printed_asphalt_is_read),
+        cmocka_unit_test(a_header_is_passed_over),
+        cmocka_unit_test(a_wrong_row_is_refused_at_its_line),
+        cmocka_unit_test(a_table_that_ends_early_is_refused),
+    };
+
+    return cmocka_run_group_tests_name("emissivity", tests, fill_table, free_table);
+}
