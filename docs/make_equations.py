@@ -87,7 +87,7 @@ def marks(*folders):
 
 def tests_of(path):
     """The tests of a source file, by their name."""
-    wanted = [ROOT / f"tests/host/{path.stem}_test.c", ROOT / f"tests/kernels/test_{path.stem}.py"]
+    wanted = [*(ROOT / "tests/host").rglob(f"{path.stem}_test.c"), *(ROOT / "tests/kernels").rglob(f"test_{path.stem}.py")]
     return [str(t.relative_to(ROOT)) for t in wanted if t.exists()]
 
 

@@ -3,7 +3,7 @@
 
     kernels/launches.py FOLDER    writes launches.h and launches.c into FOLDER, where they changed
 
-kernels/NAME.cl holds the one kernel NAME. Its parameters are
+kernels/.../NAME.cl holds the one kernel NAME. Its parameters are
     const TYPE name                        a scalar or record
     [OPTIONAL] global [const] TYPE *name   a buffer; the host may leave out an optional one
     TABLES(NAME_TABLES)                    a group: what its list in a kernels/ header holds
@@ -149,7 +149,7 @@ def header(kernels, folder):
     elements = sorted({a.type for a in arguments if a.is_buffer})
     groups = {p.name: p for k in kernels for p in k.parameters if isinstance(p, Group)}
     out = ["/* Made by kernels/launches.py from the kernels' signatures. */\n#ifndef LAUNCHES_H\n"
-           '#define LAUNCHES_H\n\n#include "device.h"\n']
+           '#define LAUNCHES_H\n\n#include "device/device.h"\n']
     out += [f'#include "{h}"\n' for h in headers_of(values, folder)]
     out += [f"\ntypedef struct {t} {t};" for t in elements if t not in HOST_TYPES]
     out += ["\n", *(f"\nDEVICE_BUFFER({t});" for t in elements)]

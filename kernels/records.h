@@ -222,7 +222,7 @@ RECORD_SIZE(air_record, 192);
 /* Samples side by side in the rows that are taken at once. */
 #define SPECTRA_BLOCK 16u
 
-/* Knots (host/knots.h) that have one value of the light between facets. */
+/* Knots (host/radiance/spectral_grid.h) that have one value of the light between facets. */
 #define LIGHT_BLOCK 4u
 
 /* Directions of the sky, times rings of lobes, that one surface can count. */

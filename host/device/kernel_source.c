@@ -26,6 +26,17 @@ static int find_file(const char *name, size_t length)
     return -1;
 }
 
+/* Returns the index of kernels/.../NAME.cl, or -1. */
+static int find_kernel(const char *name)
+{
+    char file_name[96];
+
+    snprintf(file_name, sizeof file_name, "/%s.cl", name);
+    for (int i = 0; kernel_files[i].name; i++)
+        if (!strcmp(strrchr(kernel_files[i].name, '/'), file_name)) return i;
+    return -1;
+}
+
 /* Returns the index of the file that a line includes, or -1 for any other line. */
 static int included_file(const char *line)
 {
@@ -42,14 +53,13 @@ static void append_file(assembly *all, int file)
 
     if (all->included[file]) return;
     all->included[file] = true;
-    fprintf(all->stream, "#line 1 \"kernels/%s\"\n", kernel_files[file].name);
+    fprintf(all->stream, "#line 1 \"%s\"\n", kernel_files[file].name);
     for (const char *line = kernel_files[file].text; *line; line_number++) {
         const size_t length = strcspn(line, "\n") + 1;
         const int header = included_file(line);
         if (header >= 0) {
             append_file(all, header);
-            fprintf(all->stream, "#line %d \"kernels/%s\"\n", line_number + 1,
-                    kernel_files[file].name);
+            fprintf(all->stream, "#line %d \"%s\"\n", line_number + 1, kernel_files[file].name);
         } else {
             fwrite(line, 1, length, all->stream);
         }
@@ -61,16 +71,13 @@ status kernel_source_read(char **out, const char *name)
 {
     status rc = STATUS_OK;
     assembly all = {0};
-    char file_name[96], *text = NULL;
+    char *text = NULL;
     size_t size = 0;
-    int file;
+    const int file = find_kernel(name);
 
-    snprintf(file_name, sizeof file_name, "%s.cl", name);
-    file = find_file(file_name, strlen(file_name));
     all.included = calloc(file_count() + 1, sizeof *all.included);
     NEED(all.included, STATUS_MEMORY, "kernel %s: no memory for its text", name);
-    NEED(file >= 0, STATUS_DEVICE, "kernel %s: kernels/%s is not part of this program", name,
-         file_name);
+    NEED(file >= 0, STATUS_DEVICE, "kernel %s: %s.cl is not part of this program", name, name);
     all.stream = open_memstream(&text, &size);
     NEED(all.stream, STATUS_MEMORY, "kernel %s: no memory for its text", name);
     append_file(&all, file);

@@ -6,14 +6,14 @@
 #include "base/status.h"
 
 typedef struct kernel_file {
-    const char *name; /* "planck.cl" */
+    const char *name; /* "kernels/sensor/blur.cl" */
     const char *text;
 } kernel_file;
 
 /* Ends with a NULL name; build/.../kernel_files.c is made from kernels/ by the Makefile. */
 extern const kernel_file kernel_files[];
 
-/* Text of kernels/NAME.cl in which every include stands once, with #line marks, so that a build
+/* Text of kernels/.../NAME.cl in which every include stands once, with #line marks, so that a build
  * log names the real file and line. The caller frees it. */
 status kernel_source_read(char **out, const char *name);
 

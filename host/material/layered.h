@@ -1,5 +1,5 @@
 /* Layered: what stands behind a surface, and the ladder of nodes that the layered thermal model
- * makes of it. Beyond the thesis; equations in kernels/layered.h. */
+ * makes of it. Beyond the thesis; equations in kernels/thermal/layered.h. */
 #ifndef LAYERED_H
 #define LAYERED_H
 

@@ -20,7 +20,7 @@ status incident_open(incident **out, const ray_scene *scene, const hemisphere_gr
                      const radiometry_record *frame);
 void incident_free(incident *in);
 
-/* What a tile of pixels brings along; shapes as in kernels/incident.cl. */
+/* What a tile of pixels brings along; shapes as in kernels/radiance/incident.cl. */
 typedef struct incident_pixels {
     radiometry_record frame;
     camera_record camera;

@@ -226,16 +226,16 @@ static void free_samples(band_samples *samples, uint32_t count)
 }
 
 status spectra_build(spectra **out, const band *bands, uint32_t band_count, const atmosphere *air,
-                     bool by_points, bool thesis)
+                     band_quadrature rule, bool thesis)
 {
     status rc = STATUS_OK;
     spectra *s = calloc(1, sizeof *s);
     band_samples *samples = calloc(band_count, sizeof *samples);
 
     NEED(s && samples, STATUS_MEMORY, "no memory for the spectra");
-    for (uint32_t i = 0; i < band_count; i++)
-        TRY(band_sample(&samples[i], &bands[i], air, by_points));
-    TRY(lay_row(s, samples, band_count, by_points ? air->wavenumber_step_cm1 : 0.0));
+    for (uint32_t i = 0; i < band_count; i++) TRY(band_sample(&samples[i], &bands[i], air, rule));
+    TRY(lay_row(s, samples, band_count,
+                rule == BAND_DATABASE_POINTS ? air->wavenumber_step_cm1 : 0.0));
     TRY(allocate(s, band_count, air));
     for (uint32_t i = 0; i < band_count; i++) place_band(s, i, &bands[i], &samples[i]);
     TRY(place_weights(s, samples));

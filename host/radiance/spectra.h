@@ -23,10 +23,10 @@ typedef struct spectra {
 } spectra;
 
 /* Samples everything over the bands.
- *   by_points   bands are summed over the database's points, as the thesis does (band.h)
+ *   rule     of all bands (band.h)
  *   thesis      Planck's law with the thesis' constants */
 status spectra_build(spectra **out, const band *bands, uint32_t band_count, const atmosphere *air,
-                     bool by_points, bool thesis);
+                     band_quadrature rule, bool thesis);
 void spectra_free(spectra *s);
 
 /* A count of samples in whole blocks of SPECTRA_BLOCK. */

@@ -1,5 +1,7 @@
 #include "radiance/spectral_grid.h"
 
+#include "sky/planck.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

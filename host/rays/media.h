@@ -28,7 +28,7 @@ bool media_scatter(const media *b);
 /* Samples extinction, albedo and asymmetry of all materials, linear in wavenumber, the last value
  * beyond their ends.
  *   wavenumber_cm1   shape (count)
- *   out              rows of `count` as CLOUD_... (kernels/cloud.h), per m; the last is 0 */
+ *   out              rows of `count` as CLOUD_... (kernels/media/cloud.h), per m; the last is 0 */
 status media_sample(const media *b, const double *wavenumber_cm1, uint32_t count,
                     float_buffer *out);
 

@@ -93,7 +93,7 @@ status ray_scene_primary(const ray_scene *scene, const camera_record *camera, ui
                                        .out_hit = out_hit});
 }
 
-/* A work-item has a batch of rays where it has packets; kernels/ray_order.h. */
+/* A work-item has a batch of rays where it has packets; kernels/rays/ray_order.h. */
 static device_shape batches(const device *dev, uint32_t count)
 {
     const size_t packed = 1024;

@@ -41,8 +41,8 @@ status render_sensor_write(image **out, output_folder *folder, const scene *s, d
     TRY(detector_chain_open(&d, dev, &s->sensor, image_columns(cube), image_rows(cube)));
     TRY(create(&img, folder, s, d, cube));
     for (uint32_t i = 0; i < s->band_count; i++) {
-        TRY(detector_chain_band(d, &s->bands[i], s->air, scene_sums_points(s),
-                                image_values(cube, i), image_values(img, i)));
+        TRY(detector_chain_band(d, &s->bands[i], s->air, scene_quadrature(s), image_values(cube, i),
+                                image_values(img, i)));
         image_unload(cube);
         image_unload(img);
     }

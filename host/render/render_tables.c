@@ -160,7 +160,7 @@ status render_tables_take_spectra(render_tables *t, device *dev, const scene *s,
     status rc = STATUS_OK;
     float *emissivity_rows = NULL;
 
-    TRY(spectra_build(&t->bands, s->bands, s->band_count, s->air, scene_sums_points(s), s->thesis));
+    TRY(spectra_build(&t->bands, s->bands, s->band_count, s->air, scene_quadrature(s), s->thesis));
     TRY(device_allocate(dev, &t->spectra.rows, (size_t)t->bands->row_count * t->bands->sample_count,
                         t->bands->rows));
     TRY(device_allocate(dev, &t->band_records, s->band_count, t->bands->bands));

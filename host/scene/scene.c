@@ -156,7 +156,7 @@ static void check_bands(scene_reader *reader)
         const size_t kept = strlen(status_message());
         band_samples samples = {0};
         if (!b->sensor && !(b->low_um > 0.0 && b->low_um < b->high_um)) continue;
-        if (band_sample(&samples, b, s->air, scene_sums_points(s)) != STATUS_OK) {
+        if (band_sample(&samples, b, s->air, scene_quadrature(s)) != STATUS_OK) {
             scene_fail(reader, toml_node_at(list, b->table), "%s", status_message() + kept);
             refused = b->table;
         }
@@ -311,9 +311,9 @@ const char *scene_thermal_name(scene_thermal thermal)
     return names[thermal];
 }
 
-bool scene_sums_points(const scene *s)
+band_quadrature scene_quadrature(const scene *s)
 {
-    return s->thesis && !s->is_uniform;
+    return s->thesis && !s->is_uniform ? BAND_DATABASE_POINTS : BAND_FINE;
 }
 
 bool scene_is_rough(const scene *s)

@@ -12,7 +12,7 @@
 #include "mesh/geometry.h"
 #include "scene/view.h"
 #include "sensor/band.h"
-#include "sensor/detector_chain.h"
+#include "sensor/detector_settings.h"
 #include "sky/atmosphere.h"
 #include "sky/site.h"
 #include "weather/forcing.h"
@@ -103,8 +103,8 @@ void scene_free(scene *s);
  * is no band of a name. */
 status scene_keep_bands(scene *s, const char *names);
 
-/* True where bands are summed over the database's points: thesis mode, and there is a database. */
-bool scene_sums_points(const scene *s);
+/* How bands are integrated: over the database's points in thesis mode, if there is a database. */
+band_quadrature scene_quadrature(const scene *s);
 
 /* Number of rows in the emissivity table of all materials: 91 or 1 each, and behind them all the
  * rows of diffuse lobes (lobe.h). */

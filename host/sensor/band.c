@@ -1,9 +1,9 @@
 #include "sensor/band.h"
 
+#include "sky/planck.h"
+
 #include <math.h>
 #include <stdlib.h>
-
-static const double STEP_CM1 = 2.0, STEP_GROWS_FROM_CM1 = 1e4 / 3.0;
 
 double band_look_up(const atmosphere *air, const double *value, double wavenumber_cm1)
 {
@@ -40,38 +40,32 @@ out:
     return rc;
 }
 
-double planck_step_cm1(double wavenumber_cm1)
-{
-    const double ratio = wavenumber_cm1 / STEP_GROWS_FROM_CM1;
-
-    return STEP_CM1 * fmax(1.0, ratio * ratio);
-}
-
 /* Adds samples from the last one down to `to`, close enough; without room, counts. */
-static void add_segment(band_samples *out, double from, double to, bool exact)
+static void add_segment(band_samples *out, double from, double to, band_quadrature rule)
 {
-    const int steps = exact ? (int)ceil((from - to) / planck_step_cm1(to) - 1e-9) : 1;
+    const int steps = rule == BAND_FINE ? (int)ceil((from - to) / planck_step_cm1(to) - 1e-9) : 1;
 
     for (int i = 1; i <= steps; i++, out->count++)
         if (out->wavenumber_cm1) out->wavenumber_cm1[out->count] = from + (to - from) * i / steps;
 }
 
 static void lay_samples(band_samples *out, const atmosphere *air, double high, double low,
-                        bool exact)
+                        band_quadrature rule)
 {
     const double nearly = 1e-6 * high;
     double from = high;
-    bool started = exact;
+    const bool fine = rule == BAND_FINE;
+    bool started = fine;
 
     out->count = 0;
-    if (exact && out->wavenumber_cm1) out->wavenumber_cm1[0] = high;
-    if (exact) out->count = 1;
+    if (fine && out->wavenumber_cm1) out->wavenumber_cm1[0] = high;
+    if (fine) out->count = 1;
     for (int i = 0; i < air->point_count; i++) {
         const double point = air->wavenumber_cm1[i];
         if (point > high + nearly || point < low - nearly) continue;
-        if (exact && (point > high - nearly || point < low + nearly)) continue;
+        if (fine && (point > high - nearly || point < low + nearly)) continue;
         if (started)
-            add_segment(out, from, point, exact);
+            add_segment(out, from, point, rule);
         else if (out->wavenumber_cm1)
             out->wavenumber_cm1[out->count++] = point;
         else
@@ -79,54 +73,54 @@ static void lay_samples(band_samples *out, const atmosphere *air, double high, d
         started = true;
         from = point;
     }
-    if (exact) add_segment(out, from, low, exact);
+    if (fine) add_segment(out, from, low, rule);
 }
 
 /* What sample i counts: the trapezoid rule, or the integral of the response times the roof that is 1
  * at the sample and 0 at its neighbours. */
 static double weight_of(const band_samples *s, int i, const band *b, const atmosphere *air,
-                        bool exact)
+                        band_quadrature rule)
 {
     const double at = 1e4 / s->wavenumber_cm1[i];
     const double before = 1e4 / s->wavenumber_cm1[i > 0 ? i - 1 : i];
     const double after = 1e4 / s->wavenumber_cm1[i + 1 < s->count ? i + 1 : i];
 
-    if (!exact || !b->tabulated)
+    if (rule == BAND_DATABASE_POINTS || !b->tabulated)
         return .5 * (after - before) * responds(b, air, s->wavenumber_cm1[i]);
     return (before < at ? response_integral(b->tabulated, at, before) : 0.0) +
            (after > at ? response_integral(b->tabulated, at, after) : 0.0);
 }
 
-static void weigh(band_samples *out, const band *b, const atmosphere *air, bool exact)
+static void weigh(band_samples *out, const band *b, const atmosphere *air, band_quadrature rule)
 {
     const double *nu = out->wavenumber_cm1;
     double moment = 0.0;
 
     out->width_um = 0.0;
     for (int i = 0; i < out->count; i++) {
-        out->weight_um[i] = weight_of(out, i, b, air, exact);
+        out->weight_um[i] = weight_of(out, i, b, air, rule);
         out->width_um += out->weight_um[i];
         moment += out->weight_um[i] * 1e4 / nu[i];
     }
     out->centre_um = moment / out->width_um;
 }
 
-status band_sample(band_samples *out, const band *b, const atmosphere *air, bool thesis)
+status band_sample(band_samples *out, const band *b, const atmosphere *air, band_quadrature rule)
 {
     status rc = STATUS_OK;
     band_samples samples = {0};
     double high, low;
 
     TRY(find_range(b, air, &high, &low));
-    lay_samples(&samples, air, high, low, !thesis);
+    lay_samples(&samples, air, high, low, rule);
     NEED(samples.count >= 2, STATUS_ARGUMENT,
          "band %s: %d points of the radiance database lie in it, expected 2 or more", b->name,
          samples.count);
     samples.wavenumber_cm1 = malloc((size_t)samples.count * sizeof(double));
     samples.weight_um = malloc((size_t)samples.count * sizeof(double));
     NEED(samples.wavenumber_cm1 && samples.weight_um, STATUS_MEMORY, "no memory for a band");
-    lay_samples(&samples, air, high, low, !thesis);
-    weigh(&samples, b, air, !thesis);
+    lay_samples(&samples, air, high, low, rule);
+    weigh(&samples, b, air, rule);
     NEED(samples.width_um > 0.0, STATUS_ARGUMENT, "band %s: its response is 0 everywhere", b->name);
     *out = samples;
     samples = (band_samples){0};

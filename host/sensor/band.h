@@ -27,18 +27,19 @@ typedef struct band_samples {
     double centre_um, width_um; /* mean wavelength and sum of the weights */
 } band_samples;
 
-/* Lays samples over a band. Exact: the band's own edges and every point of the database, and
- * between them steps of at most planck_step_cm1, by the trapezoid rule in wavelength; a curve is integrated
- * exactly against a spectrum that is linear between the samples. Thesis: the database points in the
- * band.
- * Fails with STATUS_ARGUMENT where the band leaves the database or holds fewer than two samples. */
-status band_sample(band_samples *out, const band *b, const atmosphere *air, bool thesis);
-void band_samples_free(band_samples *samples);
+/* Where the samples of a band lie, and how they are summed. */
+typedef enum band_quadrature {
+    BAND_FINE, /* the band's own edges and every point of the database, and between them steps
+                          * of at most planck_step_cm1, by the trapezoid rule in wavelength; a tabulated
+                          * response is integrated exactly against a spectrum that is linear between
+                          * the samples */
+    BAND_DATABASE_POINTS /* the points of the database in the band, as in the thesis */
+} band_quadrature;
 
-/* The longest step between samples: 2 cm-1 at 3 um and beyond, growing as the square of the
- * wavenumber below (18 at 1 um, 72 at .5 um). Planck's law between samples then errs by less than
- * 2e-4 for every body that shines at that wavelength: 36 K per cm-1 of the step. */
-double planck_step_cm1(double wavenumber_cm1);
+/* Lays samples over a band.
+ * Fails with STATUS_ARGUMENT where the band leaves the database or holds fewer than two samples. */
+status band_sample(band_samples *out, const band *b, const atmosphere *air, band_quadrature rule);
+void band_samples_free(band_samples *samples);
 
 /* Reads a spectrum of the database at a wavenumber inside its range, linear in wavenumber.
  *   value   shape (point_count) */

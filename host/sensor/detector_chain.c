@@ -159,19 +159,19 @@ static detector_record record_of(const detector_chain *d, const band *b, const b
     };
 }
 
-status detector_chain_band(detector_chain *d, const band *b, const atmosphere *air, bool thesis,
-                           const float *radiance, float *out)
+status detector_chain_band(detector_chain *d, const band *b, const atmosphere *air,
+                           band_quadrature rule, const float *radiance, float *out)
 {
     status rc = STATUS_OK;
     const size_t pixels = (size_t)d->picture_columns * d->picture_rows;
     band_samples samples = {0};
     psf *p = NULL;
 
-    TRY(band_sample(&samples, b, air, thesis));
+    TRY(band_sample(&samples, b, air, rule));
     TRY(build_psf(&p, d->how, samples.centre_um));
     TRY(device_upload(d->dev, d->picture, pixels, radiance));
     TRY(run_blur(d, p));
-    const detector_record record = record_of(d, b, &samples, thesis);
+    const detector_record record = record_of(d, b, &samples, rule == BAND_DATABASE_POINTS);
     TRY(detector_run(
         d->dev, shape1(record.count),
         &(detector_args){.record = record, .radiance = d->detectors, .out = d->detectors}));

@@ -6,26 +6,8 @@
 
 #include "device/device.h"
 #include "sensor/band.h"
-#include "sensor/psf.h"
+#include "sensor/detector_settings.h"
 #include "sky/atmosphere.h"
-
-/* As [sensor] of a scene states it; 0 leaves a part out. */
-typedef struct detector_settings {
-    bool is_wanted;
-    uint32_t seed, frame;
-    double gaussian_fwhm_px, box_px;
-    double airy_f_number, pixel_pitch_um;
-    double motion_px, motion_deg;
-    psf *table; /* NULL: none */
-    int step;   /* pixels of a detector, across and down */
-    double netd_k, netd_at_k;
-    double nesr; /* W m-2 sr-1 um-1, mean over the band; so for the next but one */
-    double fixed_gain, fixed_offset;
-    double periodic, periodic_px, periodic_deg;
-    double electrons;      /* per W m-2 sr-1 in band */
-    double read_electrons; /* standard deviation */
-    int bits;              /* of a count; the count is the band's gain and offset */
-} detector_settings;
 
 typedef struct detector_chain detector_chain;
 
@@ -39,10 +21,10 @@ uint32_t detector_chain_columns(const detector_chain *d);
 uint32_t detector_chain_rows(const detector_chain *d);
 
 /* Degrades one band.
- *   thesis    Planck's law with the thesis' constants, bands as in band.h
+ *   rule      as the radiance was integrated; with the database's points Planck's law has the thesis' constants
  *   radiance  shape (rows, columns) of the picture, W m-2 sr-1 or its mean per um
  *   out       shape (rows, columns) of the detectors, the same unit */
-status detector_chain_band(detector_chain *d, const band *b, const atmosphere *air, bool thesis,
-                           const float *radiance, float *out);
+status detector_chain_band(detector_chain *d, const band *b, const atmosphere *air,
+                           band_quadrature rule, const float *radiance, float *out);
 
 #endif

@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+static const double STEP_CM1 = 2.0, STEP_GROWS_FROM_CM1 = 1e4 / 3.0;
+
 planck_terms planck_at(double wavelength_um, bool thesis)
 {
     const double first = thesis ? PLANCK_FIRST_THESIS : PLANCK_FIRST;
@@ -15,4 +17,11 @@ planck_terms planck_at(double wavelength_um, bool thesis)
 double planck_spectral(planck_terms terms, double temperature_k)
 {
     return terms.first / expm1(terms.second / temperature_k);
+}
+
+double planck_step_cm1(double wavenumber_cm1)
+{
+    const double ratio = wavenumber_cm1 / STEP_GROWS_FROM_CM1;
+
+    return STEP_CM1 * fmax(1.0, ratio * ratio);
 }

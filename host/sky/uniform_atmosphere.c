@@ -1,6 +1,5 @@
 #include "sky/uniform_atmosphere.h"
 
-#include "sensor/band.h"
 #include "sky/planck.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Conduction: which facets pass heat to each other along a sheet of one material, and how well.
- * Thesis 4.0, item 5; solved in kernels/conduction.h. */
+ * Thesis 4.0, item 5; solved in kernels/thermal/conduction.h. */
 #ifndef CONDUCTION_H
 #define CONDUCTION_H
 

@@ -1,5 +1,5 @@
 /* Thermal: temperatures from the weather history: a reconstruction of what THERM does (thesis 2.2,
- * kernels/thermal.h), or facets of several layers (kernels/layered.h). Facets and pixels are computed
+ * kernels/thermal/thermal.h), or facets of several layers (kernels/thermal/layered.h). Facets and pixels are computed
  * alike: a pixel is a facet with its own history of sun and shadow (Figures 3-8, 3-9). */
 #ifndef THERMAL_H
 #define THERMAL_H

@@ -20,8 +20,8 @@ typedef enum forcing_convection {
     FORCING_THERM,     /* 9 + 1.2 V */
     FORCING_MCADAMS,   /* 5.7 + 3.8 V: McAdams 1954 */
     FORCING_TARP,      /* 3.86 sqrt(V), as of a medium rough plate of 4 m x 4 m (assumed), and what
-                         rises by itself: kernels/convection.h */
-    FORCING_SIMILARITY /* over a roughness length; V at least .1 m/s: kernels/convection.h */
+                         rises by itself: kernels/thermal/convection.h */
+    FORCING_SIMILARITY /* over a roughness length; V at least .1 m/s: kernels/thermal/convection.h */
 } forcing_convection;
 
 /* Where the sky's diffuse light comes from. Hay and Davies, 1980: what the beam is of that outside

@@ -8,7 +8,7 @@
 #include "kernels/spectrum.h"
 
 /* Rows of the diffuse lobe of a material whose emissivity changes with angle: 1 / (1 - e_hemi), then
- * one per ring of the hemisphere, see host/lobe.h. */
+ * one per ring of the hemisphere, see host/material/lobe.h. */
 #define LOBE_ROWS 1u
 
 /* The most such rings; a finer hemisphere's are joined. */

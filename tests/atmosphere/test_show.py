@@ -1,14 +1,12 @@
 """radsig-atmosphere show: what a database holds, in words and pictures."""
 
 import pathlib
-import sys
 
 import numpy
 import pytest
 import radiance_database
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-from png import read_png  # noqa: E402
+from png import read_png
 
 SHIPPED = pathlib.Path(__file__).parents[2] / "scenes" / "atmosphere"
 DISC = dict(x=240, y=270, radius=200)  # of the sky's picture

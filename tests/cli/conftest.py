@@ -5,7 +5,6 @@ import json
 import os
 import pathlib
 import subprocess
-import sys
 import types
 
 import numpy as np
@@ -16,8 +15,7 @@ ROOT = HERE.parents[1]
 RADSIG = ROOT / os.environ.get("RADSIG", "build/radsig")
 AIRPORT = ROOT / "scenes" / "airport"
 
-sys.path.append(str(HERE))
-import envi  # noqa: E402
+import envi
 
 VACUUM = {"sky_temperature_k": 1.0, "sky_radiance_w_m2_sr_um": 0.0, "sun_irradiance_w_m2_um": 0.0,
           "transmission": 1.0, "path_temperature_k": 1.0}

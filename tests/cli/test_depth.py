@@ -1,12 +1,10 @@
 """Exact mode: light that goes from facet to facet, against its series at every depth."""
 import pathlib
-import sys
 
 import numpy as np
 import pytest
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import cases  # noqa: E402
+import cases
 
 BAND = 2e-4
 LWIR = (8.0, 14.0)

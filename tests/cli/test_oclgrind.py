@@ -3,7 +3,6 @@ import os
 import pathlib
 import shutil
 import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -11,8 +10,7 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RADSIG = ROOT / os.environ.get("RADSIG", "build/radsig")
 
-sys.path.append(str(ROOT / "tests"))
-import cases  # noqa: E402
+import cases
 
 pytestmark = pytest.mark.skipif(not shutil.which("oclgrind"), reason="needs the package oclgrind")
 

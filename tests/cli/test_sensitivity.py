@@ -1,13 +1,11 @@
 """radsig thermal --sensitivity, against closed forms and the thesis' Tables 3.1.1-1 and 3.1.2-1."""
 import math
 import pathlib
-import sys
 
 import pytest
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.append(str(HERE.parent))
-import table_d1  # noqa: E402
+import table_d1
 
 JUNE = HERE / "clear_june_1992.wth"
 PLACE = ["--site", "43.083,-77.667", "--date", "1992-06-23", "--utc-offset", "-4"]

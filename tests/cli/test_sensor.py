@@ -1,15 +1,12 @@
 """[sensor]: the degraded radiance beside the clean one, against closed forms."""
 import pathlib
 import re
-import sys
 
 import numpy as np
 import pytest
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parent))
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import envi  # noqa: E402
-from png import read_png  # noqa: E402
+import envi
+from png import read_png
 
 FLAT = {"pixels": [256, 256]}
 BLACK = {"name": "lwir", "wavelength_um": [8.0, 14.0]}

@@ -1,7 +1,6 @@
 import os
 import pathlib
 import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -10,8 +9,7 @@ from test_trace import write
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RADSIG = ROOT / os.environ.get("RADSIG", "build/radsig")
 
-sys.path.append(str(ROOT / "tests"))
-import cases  # noqa: E402
+import cases
 
 LEVEL = ("--normal", "0,0,1")
 

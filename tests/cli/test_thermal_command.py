@@ -4,7 +4,6 @@ weather_synthesise for 9 C at sunrise, 21 C at 15:30, relative humidity .90 at s
 import os
 import pathlib
 import subprocess
-import sys
 
 import pytest
 
@@ -13,8 +12,7 @@ RADSIG = ROOT / os.environ.get("RADSIG", "build/radsig")
 HISTORY = pathlib.Path(__file__).with_name("clear_june_1992.wth")
 PLACE = {"site": "43.083,-77.667", "date": "1992-06-23", "utc-offset": "-4"}
 
-sys.path.append(str(ROOT / "tests"))
-import table_d1  # noqa: E402
+import table_d1
 
 ROWS = {row.name: row for row in table_d1.ROWS}
 

@@ -1,7 +1,6 @@
 import os
 import pathlib
 import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -9,8 +8,7 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RADSIG = ROOT / os.environ.get("RADSIG", "build/radsig")
 
-sys.path.append(str(ROOT / "tests"))
-import cases  # noqa: E402
+import cases
 
 ANSWER = np.dtype([("t_m", "<f4"), ("facet", "<i4")])
 

@@ -3,10 +3,10 @@ import sys
 
 import numpy as np
 import pyopencl as cl
-from probe import KERNELS
+from probe import ROOT, find
 from records import TWINS
 
-sys.path.append(str(KERNELS))
+sys.path.append(str(ROOT / "kernels"))
 import launches  # noqa: E402
 
 SCALARS = {"uint": np.dtype("u4"), "int": np.dtype("i4"), "float": np.dtype("f4"), "uchar": np.dtype("u1")}
@@ -21,14 +21,14 @@ class OpenCL:
 
     def __init__(self, context):
         self.context, self.queue = context, cl.CommandQueue(context)
-        self.kernels = {k.name: k for k in launches.read(KERNELS)}
+        self.kernels = {k.name: k for k in launches.read()}
         self.built = {}
 
     def build(self, name, options=""):
         """The kernel of kernels/.../NAME.cl."""
         if (name, options) not in self.built:
-            source = next(KERNELS.rglob(f"{name}.cl")).read_text()
-            program = cl.Program(self.context, source).build(f"-cl-std=CL1.2 -I {KERNELS} {options}")
+            source = (ROOT / find(f"{name}.cl")).read_text()
+            program = cl.Program(self.context, source).build(f"-cl-std=CL1.2 -I {ROOT} {options}")
             self.built[name, options] = getattr(program, name)
         return self.built[name, options]
 

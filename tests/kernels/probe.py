@@ -4,7 +4,12 @@ import pathlib
 import numpy as np
 import pyopencl as cl
 
-KERNELS = pathlib.Path(__file__).resolve().parents[2] / "kernels"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def find(name):
+    """Path below ROOT of a file of kernels/."""
+    return next((ROOT / "kernels").rglob(name)).relative_to(ROOT)
 
 
 def copy(opencl, array):
@@ -38,11 +43,11 @@ def probe(opencl, header, body, inputs, outputs=1, options=""):
     Returns shape (outputs, n)."""
     arrays = [np.ascontiguousarray(a, np.float32) for a in inputs]
     parameters = "".join(f"global const float *in{k}, " for k in range(len(arrays)))
-    source = (f'#include "{header}"\n'
+    source = (f'#include "{find(header)}"\n'
               f"kernel void probe({parameters}global float *all)\n"
               f"{{ const uint i = get_global_id(0); float out[{outputs}];\n{body}\n"
               f"for (int k = 0; k < {outputs}; k++) all[k * get_global_size(0) + i] = out[k]; }}\n")
-    program = cl.Program(opencl.context, source).build(f"-cl-std=CL1.2 -I {KERNELS} {options}")
+    program = cl.Program(opencl.context, source).build(f"-cl-std=CL1.2 -I {ROOT} {options}")
     count = len(arrays[0])
     return launch(opencl, program.probe, count, [copy(opencl, a) for a in arrays],
                   (outputs, count))

@@ -28,7 +28,7 @@ class RayWorld:
         return (-(-count // self.lanes), 1)
 
     def batches(self, count):
-        """The launch of kernels that sort their rays, kernels/ray_order.h."""
+        """The launch of kernels that sort their rays, kernels/rays/ray_order.h."""
         return (-(-count // (1024 if self.lanes == 16 else 1)), 1)
 
     def bundle(self):
@@ -99,7 +99,7 @@ def points(position, normal):
 
 
 def grid(zenith_step_deg, azimuth_step_deg, weight):
-    """Cells (n, 4) as host/shape_factor.h describes them; weight: a function of the elevation."""
+    """Cells (n, 4) as host/hemisphere/shape_factor.h describes them; weight: a function of the elevation."""
     elevation = np.radians(np.arange(zenith_step_deg / 2, 90, zenith_step_deg))
     azimuth = np.radians(np.arange(azimuth_step_deg / 2, 360, azimuth_step_deg))
     e, a = (x.ravel() for x in np.meshgrid(elevation, azimuth, indexing="ij"))

@@ -4,7 +4,7 @@ import pyopencl as cl
 import pytest
 import records
 from opencl import SCALARS, launches
-from probe import KERNELS
+from probe import ROOT
 from records import TWINS
 
 RECORDS = sorted(set(TWINS) - {"conduction_group"})  # which has as many lanes as the kernel
@@ -14,12 +14,12 @@ def device_layout(opencl, name, fields):
     """Offset and size of every field, and last the record's size, as the device has them."""
     lines = "".join(f"out[{2 * i}] = (global char *)&r->{field} - (global char *)r;"
                     f"out[{2 * i + 1}] = sizeof(r->{field});" for i, field in enumerate(fields))
-    header, = launches.headers_of([name], KERNELS)
+    header, = launches.headers_of([name], ROOT / "kernels")
     source = (f'#include "{header}"\n'
               f"kernel void layout(global const {name} *r, global uint *out)"
               f"{{ {lines} out[{2 * len(fields)}] = sizeof(*r); }}")
     program = cl.Program(opencl.context, source).build(
-        f"-cl-std=CL1.2 -I {KERNELS.parent} -I {KERNELS}")
+        f"-cl-std=CL1.2 -I {ROOT}")
     record = probe.copy(opencl, np.zeros(512, np.uint8))
     return probe.launch(opencl, program.layout, 1, [record], 2 * len(fields) + 1, np.uint32)
 

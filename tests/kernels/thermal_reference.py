@@ -1,4 +1,4 @@
-"""The equations of kernels/thermal.h in float64 numpy, all facets at once; slabs by a dense solve."""
+"""The equations of kernels/thermal/thermal.h in float64 numpy, all facets at once; slabs by a dense solve."""
 import numpy as np
 import records
 

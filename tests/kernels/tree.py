@@ -1,4 +1,4 @@
-"""The tree that kernels trace, built by host/bvh.c itself."""
+"""The tree that kernels trace, built by host/tree/bvh.c itself."""
 import ctypes
 import pathlib
 import subprocess
@@ -7,7 +7,8 @@ import tempfile
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SOURCES = ["bvh.c", "bvh_binary.c", "bvh_wide.c", "corner_tree.c", "polygon.c", "status.c"]
+SOURCES = ["tree/bvh.c", "tree/bvh_binary.c", "tree/bvh_wide.c", "mesh/corner_tree.c", "mesh/polygon.c",
+           "base/interrupt.c", "base/status.c"]
 
 
 class Source(ctypes.Structure):
@@ -26,7 +27,7 @@ def _load():
     with tempfile.TemporaryDirectory() as folder:
         library = f"{folder}/bvh.so"
         sources = [str(ROOT / "host" / name) for name in SOURCES]
-        flags = ["-std=c11", "-D_GNU_SOURCE", "-O2", "-shared", "-fPIC"]
+        flags = ["-std=c11", "-D_GNU_SOURCE", "-O2", "-shared", "-fPIC", f"-I{ROOT}", f"-I{ROOT / 'host'}"]
         subprocess.run(["cc", *flags, "-o", library, *sources, "-lm"], check=True)
         bvh = ctypes.CDLL(library)
     bvh.bvh_look.restype = ctypes.POINTER(Tables)

@@ -10,8 +10,7 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CLOUD = ROOT / "scenes" / "cloud"
 
-sys.path.append(str(ROOT / "tests" / "cli"))
-import envi  # noqa: E402
+import envi
 
 
 @pytest.fixture(scope="module")

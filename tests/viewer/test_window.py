@@ -4,14 +4,12 @@ import ctypes.util
 import pathlib
 import shutil
 import subprocess
-import sys
 import time
 
 import numpy as np
 import pytest
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-from png import read_png  # noqa: E402
+from png import read_png
 
 MISSING = [name for name in ("Xvfb", "xdotool") if not shutil.which(name)]
 pytestmark = pytest.mark.skipif(bool(MISSING), reason=f"{' and '.join(MISSING)} missing: make deps")

@@ -272,7 +272,7 @@ static void a_failed_build_shows_its_log_with_file_and_line(void **state)
     assert_non_null(strstr(status_message(), "kernel mirror does not build on "));
     assert_non_null(strstr(status_message(), "CL_BUILD_PROGRAM_FAILURE"));
     assert_non_null(strstr(status_message(), "error: "));
-    assert_non_null(strstr(status_message(), "kernels/mirror.cl:"));
+    assert_non_null(strstr(status_message(), "kernels/hemisphere/mirror.cl:"));
 }
 
 int main(void)

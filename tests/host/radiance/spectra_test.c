@@ -55,7 +55,8 @@ static spectra *build(bool thesis)
 {
     spectra *s = NULL;
 
-    if (spectra_build(&s, bands, 2, &air, thesis, thesis) != STATUS_OK)
+    if (spectra_build(&s, bands, 2, &air, thesis ? BAND_DATABASE_POINTS : BAND_FINE, thesis) !=
+        STATUS_OK)
         fail_msg("%s", status_message());
     return s;
 }
@@ -87,7 +88,7 @@ static void bands_that_share_an_edge_share_its_sample(void **state)
     spectra *s = NULL;
 
     (void)state;
-    assert_int_equal(spectra_build(&s, halves, 2, &air, false, false), STATUS_OK);
+    assert_int_equal(spectra_build(&s, halves, 2, &air, BAND_FINE, false), STATUS_OK);
     /* Both are 1.23 cm-1 wide, a step each, and no point of the database is in them. */
     assert_int_equal(s->sample_count, 16);
     assert_near(s->wavenumber_cm1[1], 1e4 / 9.01, 1e-9);
@@ -105,7 +106,7 @@ static void a_block_does_not_go_over_a_gap_between_bands(void **state)
     spectra *s = NULL;
 
     (void)state;
-    assert_int_equal(spectra_build(&s, apart, 2, &air, false, false), STATUS_OK);
+    assert_int_equal(spectra_build(&s, apart, 2, &air, BAND_FINE, false), STATUS_OK);
     assert_int_equal(s->sample_count, 32);
     assert_int_equal(s->bands[0].first_sample, 16);
     assert_int_equal(s->bands[1].first_sample, 0);
@@ -224,7 +225,7 @@ static void a_band_beyond_the_database_fails(void **state)
     spectra *s = NULL;
 
     (void)state;
-    assert_int_equal(spectra_build(&s, &beyond, 1, &air, false, false), STATUS_ARGUMENT);
+    assert_int_equal(spectra_build(&s, &beyond, 1, &air, BAND_FINE, false), STATUS_ARGUMENT);
     assert_null(s);
 }
 

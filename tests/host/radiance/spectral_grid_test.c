@@ -46,7 +46,7 @@ static spectral_grid *find(spectra **out_spectra, bool all)
 {
     spectral_grid *k = NULL;
 
-    assert_int_equal(spectra_build(out_spectra, bands, 2, &air, false, false), STATUS_OK);
+    assert_int_equal(spectra_build(out_spectra, bands, 2, &air, BAND_FINE, false), STATUS_OK);
     assert_int_equal(spectral_grid_find(&k, *out_spectra, &air, all), STATUS_OK);
     return k;
 }
@@ -153,7 +153,7 @@ static void a_coarse_database_alone_has_knots(void **state)
     (void)state;
     for (int i = 0; i < POINTS; i++) wavenumber_cm1[i] = 17400.0 - 100.0 * i;
     air.wavenumber_step_cm1 = 100.0;
-    assert_int_equal(spectra_build(&s, &visible, 1, &air, false, false), STATUS_OK);
+    assert_int_equal(spectra_build(&s, &visible, 1, &air, BAND_FINE, false), STATUS_OK);
     assert_int_equal(spectral_grid_find(&k, s, &air, false), STATUS_OK);
     for (uint32_t i = 0; i < k->spectra->sample_count; i++)
         assert_near(fmod(k->spectra->wavenumber_cm1[i] + 50.0, 100.0), 50.0, 1e-6);

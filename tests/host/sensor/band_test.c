@@ -35,11 +35,11 @@ static int make_database(void **state)
     return 0;
 }
 
-static band_samples sample(band b, bool thesis)
+static band_samples sample(band b, band_quadrature rule)
 {
     band_samples samples;
 
-    if (band_sample(&samples, &b, &air, thesis) != STATUS_OK) fail_msg("%s", status_message());
+    if (band_sample(&samples, &b, &air, rule) != STATUS_OK) fail_msg("%s", status_message());
     return samples;
 }
 
@@ -94,7 +94,7 @@ static void the_weights_of_any_band_sum_up_to_its_width(void **state)
     (void)state;
     for (int i = 0; i < TRIALS; i++) {
         const band b = random_band();
-        band_samples s = sample(b, false);
+        band_samples s = sample(b, BAND_FINE);
         const double width = b.high_um - b.low_um;
         assert_near(sum_of(&s, one), width, 1e-12 * width); /* double */
         assert_near(s.width_um, width, 1e-12 * width);
@@ -107,7 +107,7 @@ static void samples_run_from_edge_to_edge_without_gaps(void **state)
     (void)state;
     for (int i = 0; i < TRIALS; i++) {
         const band b = random_band();
-        band_samples s = sample(b, false);
+        band_samples s = sample(b, BAND_FINE);
         assert_near(1e4 / s.wavenumber_cm1[0], b.low_um, 1e-12);
         assert_near(1e4 / s.wavenumber_cm1[s.count - 1], b.high_um, 1e-12);
         for (int k = 1; k < s.count; k++) {
@@ -123,7 +123,7 @@ static void a_smooth_spectrum_is_integrated_to_2e_6(void **state)
     (void)state;
     for (int i = 0; i < TRIALS; i++) {
         const band b = random_band();
-        band_samples s = sample(b, false);
+        band_samples s = sample(b, BAND_FINE);
         const double expected = dense(b.low_um, b.high_um, black_body);
         /* Trapezoids of 2 cm-1, at most .04 um: step^2 / 12 x B'' / B of about .2 um-2. */
         assert_near(sum_of(&s, black_body), expected, 2e-6 * expected);
@@ -136,7 +136,7 @@ static void a_tabulated_spectrum_is_integrated_to_2e_4(void **state)
     (void)state;
     for (int i = 0; i < TRIALS; i++) {
         const band b = random_band();
-        band_samples s = sample(b, false);
+        band_samples s = sample(b, BAND_FINE);
         const double expected = dense(b.low_um, b.high_um, tabulated);
         assert_near(sum_of(&s, tabulated), expected, 2e-4 * expected); /* notes: 1.6e-4 */
         band_samples_free(&s);
@@ -161,16 +161,16 @@ static void a_band_beyond_the_database_is_refused(void **state)
     (void)state;
     const band below = {.name = "mwir", .low_um = 5.0, .high_um = 8.0};
     const band above = {.name = "far", .low_um = 10.0, .high_um = 14.4};
-    assert_int_equal(band_sample(&s, &below, &air, false), STATUS_ARGUMENT);
+    assert_int_equal(band_sample(&s, &below, &air, BAND_FINE), STATUS_ARGUMENT);
     assert_non_null(strstr(status_message(), "band mwir: 5 to 8 um is not within"));
     assert_non_null(strstr(status_message(), "5.556 to 14.29 um"));
-    assert_int_equal(band_sample(&s, &above, &air, true), STATUS_ARGUMENT);
+    assert_int_equal(band_sample(&s, &above, &air, BAND_DATABASE_POINTS), STATUS_ARGUMENT);
 }
 
 static void a_band_that_fills_the_database_is_taken(void **state)
 {
     (void)state;
-    band_samples s = sample((band){.name = "all", .low_um = low_um, .high_um = high_um}, false);
+    band_samples s = sample((band){.name = "all", .low_um = low_um, .high_um = high_um}, BAND_FINE);
 
     assert_near(s.width_um, high_um - low_um, 1e-12);
     band_samples_free(&s);
@@ -179,7 +179,7 @@ static void a_band_that_fills_the_database_is_taken(void **state)
 static void the_centre_is_the_mean_wavelength(void **state)
 {
     (void)state;
-    band_samples s = sample((band){.name = "b", .low_um = 8.0, .high_um = 12.0}, false);
+    band_samples s = sample((band){.name = "b", .low_um = 8.0, .high_um = 12.0}, BAND_FINE);
 
     assert_near(s.centre_um, 10.0, 1e-5); /* trapezoids of l dl: exact but for rounding of sums */
     band_samples_free(&s);
@@ -192,9 +192,9 @@ static void a_flat_response_equals_the_whole_database(void **state)
 
     (void)state;
     for (int i = 0; i < POINTS; i++) flat.response[i] = 1.0;
-    band_samples with = sample((band){.name = "flat", .sensor = &flat}, false);
+    band_samples with = sample((band){.name = "flat", .sensor = &flat}, BAND_FINE);
     band_samples without =
-        sample((band){.name = "all", .low_um = low_um, .high_um = high_um}, false);
+        sample((band){.name = "all", .low_um = low_um, .high_um = high_um}, BAND_FINE);
     assert_int_equal(with.count, without.count);
     for (int i = 0; i < with.count; i++)
         assert_near(with.weight_um[i], without.weight_um[i], 1e-15);
@@ -219,7 +219,7 @@ static void a_sensor_s_response_is_linear_between_its_points(void **state)
 
     (void)state;
     for (int i = 0; i < POINTS; i++) s.response[i] = value[i] / 10.0;
-    band_samples samples = sample((band){.name = "sen", .sensor = &s}, false);
+    band_samples samples = sample((band){.name = "sen", .sensor = &s}, BAND_FINE);
     const double width = dense(low_um, high_um, respond);
     const double radiance = dense(low_um, high_um, respond_to_black_body);
     assert_near(samples.width_um, width, 2e-4 * width);
@@ -236,10 +236,10 @@ static void a_response_that_does_not_fit_the_database_is_refused(void **state)
     band_samples samples;
 
     (void)state;
-    assert_int_equal(band_sample(&samples, &b, &air, false), STATUS_ARGUMENT);
+    assert_int_equal(band_sample(&samples, &b, &air, BAND_FINE), STATUS_ARGUMENT);
     assert_non_null(strstr(status_message(), "55 responses, the radiance database 56 points"));
     s.count = POINTS;
-    assert_int_equal(band_sample(&samples, &b, &air, false), STATUS_ARGUMENT);
+    assert_int_equal(band_sample(&samples, &b, &air, BAND_FINE), STATUS_ARGUMENT);
     assert_non_null(strstr(status_message(), "its response is 0 everywhere"));
 }
 
@@ -247,12 +247,14 @@ static void thesis_mode_samples_the_points_inside_and_no_others(void **state)
 {
     (void)state;
     /* 1250 and 750 cm-1 are no points; 1240 .. 760 are. */
-    band_samples s = sample((band){.name = "b", .low_um = 8.0, .high_um = 1e4 / 750.0}, true);
+    band_samples s =
+        sample((band){.name = "b", .low_um = 8.0, .high_um = 1e4 / 750.0}, BAND_DATABASE_POINTS);
 
     assert_int_equal(s.count, 25);
     for (int i = 0; i < s.count; i++) assert_near(s.wavenumber_cm1[i], 1240.0 - 20.0 * i, 0.0);
     band_samples_free(&s);
-    s = sample((band){.name = "edges", .low_um = 1e4 / 1240.0, .high_um = 1e4 / 760.0}, true);
+    s = sample((band){.name = "edges", .low_um = 1e4 / 1240.0, .high_um = 1e4 / 760.0},
+               BAND_DATABASE_POINTS);
     assert_int_equal(s.count, 25);
     band_samples_free(&s);
 }
@@ -263,7 +265,7 @@ static void thesis_mode_needs_two_points(void **state)
     band_samples s;
 
     (void)state;
-    assert_int_equal(band_sample(&s, &b, &air, true), STATUS_ARGUMENT);
+    assert_int_equal(band_sample(&s, &b, &air, BAND_DATABASE_POINTS), STATUS_ARGUMENT);
     assert_non_null(strstr(status_message(), "band narrow: 1 points"));
 }
 

@@ -1,5 +1,4 @@
 import pathlib
-import sys
 
 import numpy as np
 import pytest
@@ -8,8 +7,7 @@ from radiometry_reference import unit
 from ray_world import RayWorld
 from records import NONE
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import cases  # noqa: E402
+import cases
 
 MIRROR, DULL = 0, 1
 EYE = np.array([3.0, -4.0, 20.0])

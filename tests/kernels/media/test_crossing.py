@@ -1,6 +1,5 @@
 """Lengths inside transmissive bodies, against closed forms of chords."""
 import pathlib
-import sys
 
 import numpy as np
 import probe
@@ -9,12 +8,11 @@ import pytest
 import records
 import tree
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import cases  # noqa: E402
+import cases
 
 LEVELS = np.float32([[300, 290], [1300, 280], [2300, 285]])
 BODY = """
-#include "crossing.h"
+#include "kernels/media/crossing.h"
 kernel void probe(TABLES(MEDIUM_TABLES), global const float *rays, global transmission_path *out)
 {
     const uint i = get_global_id(0);
@@ -33,7 +31,7 @@ kernel void probe(TABLES(MEDIUM_TABLES), global const float *rays, global transm
 @pytest.fixture
 def paths(opencl):
     """paths(mesh, medium, origin, direction, limit): a record per ray. medium: per facet or one."""
-    program = cl.Program(opencl.context, BODY).build(f"-cl-std=CL1.2 -I {probe.KERNELS}")
+    program = cl.Program(opencl.context, BODY).build(f"-cl-std=CL1.2 -I {probe.ROOT}")
 
     def run(mesh, medium, origin, direction, limit=np.inf, stated_k=(0, 0, 0, 0)):
         nodes, blocks, low, high = tree.build(*mesh)

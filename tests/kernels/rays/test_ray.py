@@ -1,12 +1,10 @@
 import pathlib
-import sys
 
 import numpy as np
 import pytest
 from ray_world import NONE, RayWorld
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import cases  # noqa: E402
+import cases
 
 pytestmark = pytest.mark.usefixtures("ray_lanes")
 

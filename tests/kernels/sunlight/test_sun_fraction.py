@@ -1,6 +1,4 @@
 """Shares of the sun that transmissive bodies let through, against exp(-extinction x length)."""
-import pathlib
-import sys
 
 import numpy as np
 import ray_world
@@ -8,8 +6,7 @@ import records
 import test_sun_history as history
 import tree
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import cases  # noqa: E402
+import cases
 
 UP = (0, 0, 1)
 
@@ -26,8 +23,8 @@ def fractions(opencl, mesh, sun, hits, lit):
     words[:, :history.WORDS] = np.packbits(lit, bitorder="little").view(np.uint32)
     world = np.zeros(1, records.WORLD)
     world["ground_facet"], world["offset_m"] = ray_world.NONE, 1e-4
-    medium = {"bodies": bodies, "body_nodes": nodes.view(records.BVH_NODE),
-              "body_blocks": blocks.view(records.BVH_BLOCK),
+    medium = {"media": bodies, "medium_nodes": nodes.view(records.BVH_NODE),
+              "medium_blocks": blocks.view(records.BVH_BLOCK),
               "medium_row": np.zeros(len(mesh[0]), np.uint32), "air_level": np.zeros(2, np.float32)}
     opencl.run("sun_fraction", (len(hits), 8 * history.WORDS), count=len(hits), day=day, world=world,
                medium=medium, sun=sun, hit=hits, lit=words)

@@ -1,5 +1,4 @@
 import pathlib
-import sys
 
 import numpy as np
 import pytest
@@ -7,8 +6,7 @@ import records
 from ray_world import NONE, RayWorld, points
 from records import NO_VALUE
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import cases  # noqa: E402
+import cases
 
 SLOTS, WORDS = 96, 3
 UP = (0, 0, 1)

@@ -136,7 +136,7 @@ def test_a_sheet_that_the_sun_leaves_follows_louis_s_air(opencl):
 
 def test_evaporation_meets_the_same_air(opencl):
     """9 W m-2 K-1, stated as the wind's alone and as what rises and the rest."""
-    source = """#include "layered.h"
+    source = """#include "kernels/thermal/layered.h"
 kernel void probe(global float *out) {
     forcing_record f = {.air_temperature_k = 290, .convection_w_m2_k = 9, .pressure_pa = 1e5f,
                         .specific_humidity = .004f};
@@ -150,7 +150,7 @@ kernel void probe(global float *out) {
 }
 """
     program = cl.Program(opencl.context, source).build(
-        f"-cl-std=CL1.2 -DLANES_WIDTH=1 -I {probe.KERNELS}")
+        f"-cl-std=CL1.2 -DLANES_WIDTH=1 -I {probe.ROOT}")
     usual, same = probe.launch(opencl, program.probe, 1, [], (2,))
 
     assert usual > 100 and same == pytest.approx(usual, rel=1e-5)

@@ -1,6 +1,5 @@
 """Layered facets against closed forms; ladders of conductances are made here in double."""
 import pathlib
-import sys
 
 import numpy as np
 import pyopencl as cl
@@ -8,10 +7,9 @@ import pytest
 from records import FORCING, LAYERED, SPAN
 from thermal_reference import SIGMA
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import table_d1  # noqa: E402
+import table_d1
 
-KERNELS = pathlib.Path(__file__).resolve().parents[2] / "kernels"
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 NODES, STEP_S = 8, 900.0
 ADIABATIC, AIR, STATED = range(3)
 ASPHALT = (0.689, 2114.0 * 920.0)  # W/m/K, J/m3/K
@@ -80,7 +78,7 @@ def test_nafems_t3_a_bar_follows_a_sine_at_its_end(opencl):
     ratio = 1.5
     capacity, conductance = ladder([(0.1, 35.0, 7200 * 440.5)], ratio)
     values = ", ".join(f"{c:.8e}f" for c in capacity), ", ".join(f"{c:.8e}f" for c in conductance)
-    source = f"""#include "layered.h"
+    source = f"""#include "kernels/thermal/layered.h"
     constant float capacity[8] = {{{values[0]}}}, conductance[9] = {{{values[1]}}};
     kernel void bar(global float *out) {{
         layered_record r = {{.normal = {{0, 0, 1}}, .sky_fraction = 1, .back = LAYERED_STATED, .back_k = 273.15f,
@@ -100,7 +98,7 @@ def test_nafems_t3_a_bar_follows_a_sine_at_its_end(opencl):
         for (int j = 0; j < 8; j++) out[j] = s.node_k[j];
     }}"""
     program = cl.Program(opencl.context, source).build(
-        f"-cl-std=CL1.2 -I {KERNELS} -DLANES_WIDTH=1")
+        f"-cl-std=CL1.2 -I {ROOT} -DLANES_WIDTH=1")
     out = np.zeros(8, np.float32)
     memory = cl.Buffer(opencl.context, cl.mem_flags.WRITE_ONLY, out.nbytes)
     program.bar(opencl.queue, (1,), None, memory)

@@ -1,5 +1,3 @@
-import pathlib
-import sys
 
 import numpy as np
 import pytest
@@ -7,8 +5,7 @@ import thermal_reference as reference
 from records import FACET, FORCING, MATERIAL, SPAN
 from thermal_reference import SIGMA
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
-import table_d1  # noqa: E402
+import table_d1
 
 STEP_S = 900.0
 ASPHALT = {"density_kg_m3": 2114.0, "specific_heat_j_kg_k": 920.0, "conductivity_w_m_k": 0.689}
