@@ -24,7 +24,7 @@
  *   emissivity   of the materials, and their diffuse lobes
  *   extinction   CLOUD_... of cloud.h; NULL: no transmissive bodies
  * and how samples lie between knots; NULL: all samples are knots.
- *   knot_first   shape (blocks of SPECTRA_BLOCK samples): the first knot that each takes
+ *   knot_first      shape (blocks of SPECTRA_BLOCK samples): the first knot that each takes
  *   knot_fraction   shape (blocks, knot_span, SPECTRA_BLOCK): what each knot counts at its samples */
 #define SPECTRA_TABLES(TABLE, AND)                                                                 \
     TABLE(global const float *, rows)                                                              \
