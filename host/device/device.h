@@ -50,7 +50,7 @@ const device_info *device_describe(const device *dev);
 /* Gives the device host memory that is only read: a CPU uses it where it is, others get a copy. It must
  * outlive the buffer. Fails as device_allocate. */
 #define device_share(dev, out, count, elements)                                                    \
-    device_memory_fraction(dev, &(out)->memory, DEVICE_BYTES(*(out), count),                       \
+    device_memory_share(dev, &(out)->memory, DEVICE_BYTES(*(out), count),                       \
                            DEVICE_SOURCE(*(out), elements))
 #define device_release(buffer) device_memory_release((buffer).memory)
 
@@ -88,7 +88,7 @@ const device_info *device_describe(const device *dev);
 
 /* What stands behind these; sizes in bytes. */
 status device_memory_allocate(device *dev, device_memory *out, size_t bytes, const void *initial);
-status device_memory_fraction(device *dev, device_memory *out, size_t bytes, const void *memory);
+status device_memory_share(device *dev, device_memory *out, size_t bytes, const void *memory);
 void device_memory_release(device_memory memory);
 status device_memory_upload(device *dev, device_memory memory, size_t bytes, const void *source);
 status device_memory_download(device *dev, device_memory memory, size_t bytes, void *destination);

@@ -71,12 +71,12 @@ status material_library_read(material_library **out, const char *path)
     long count;
     material_library *library = calloc(1, sizeof *library);
 
-    NEED(library, STATUS_MEMORY, "material library");
+    NEED(library, STATUS_MEMORY, "no memory for a material library");
     TRY(record_file_open(&file, path));
     TRY(record_file_header(file, NULL));
     TRY(record_file_count(file, 1, 100000, &count, "the number of materials"));
     library->items = calloc((size_t)count, sizeof *library->items);
-    NEED(library->items, STATUS_MEMORY, "%ld materials", count);
+    NEED(library->items, STATUS_MEMORY, "no memory for %ld materials", count);
     for (; library->count < count; library->count++)
         TRY(read_material(&library->items[library->count], library, file));
     TRY(record_file_finish(file));

@@ -8,6 +8,7 @@
 #include "render/render_probe.h"
 #include "render/render_sensor.h"
 #include "render/render_summary.h"
+#include "scene/scene_limits.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -25,7 +26,6 @@ typedef struct writing {
     float **values;               /* shape (plane_count): of the image's plane, NULL: not wanted */
     char time[SITE_TIME_SIZE];
     image_label *materials;
-    render_report_input *inputs; /* shape (s->input_count) */
     image_header header;
 } writing;
 
@@ -134,8 +134,7 @@ static status open_writing(writing *w, const scene *s, device *const *dev, size_
     TRY(check_names(w));
     w->values = calloc(w->plane_count, sizeof *w->values);
     w->materials = malloc((s->material_count + 1) * sizeof *w->materials);
-    w->inputs = calloc(s->input_count + 1, sizeof *w->inputs);
-    NEED(w->values && w->materials && w->inputs, STATUS_MEMORY, "no memory for the list of planes");
+    NEED(w->values && w->materials, STATUS_MEMORY, "no memory for the list of planes");
     for (uint32_t i = 0; i < s->material_count; i++)
         w->materials[i] =
             (image_label){(int32_t)s->materials[i].record.number, s->materials[i].name};
@@ -152,7 +151,6 @@ static void free_writing(writing *w)
     image_free(w->truth);
     image_free(w->cube);
     output_folder_free(w->folder);
-    free(w->inputs);
     free(w->materials);
     free(w->values);
 }
@@ -273,14 +271,7 @@ static status write_exr(void *self)
                            &w->header);
 }
 
-static status hash_inputs(void *self)
-{
-    writing *w = self;
-
-    return render_summary_hash(w->inputs, w->s);
-}
-
-/* Pictures, OpenEXR and the inputs' hashes; what takes longest first. */
+/* Pictures and OpenEXR; what takes longest first. */
 static status write_pictures(writing *w)
 {
     status rc = STATUS_OK;
@@ -289,11 +280,10 @@ static status write_pictures(writing *w)
     size_t count = 0;
 
     TRY(list_drawings(w, &pictures));
-    list = calloc(pictures.count + 2, sizeof *list);
+    list = calloc(pictures.count + 1, sizeof *list);
     NEED(list, STATUS_MEMORY, "no memory for the list of pictures");
     if (w->s->band_count <= RENDER_OUTPUT_BANDS || w->options->wants_exr)
         list[count++] = (parallel_job){write_exr, w};
-    list[count++] = (parallel_job){hash_inputs, w};
     for (size_t i = 0; i < pictures.count; i++)
         list[count++] = (parallel_job){write_picture, &pictures.list[i]};
     TRY(parallel_run(list, count));
@@ -313,7 +303,6 @@ static status write_summary(writing *w, double start)
                                     .plane_count = w->plane_count,
                                     .sensor = w->sensor,
                                     .materials = w->materials,
-                                    .inputs = w->inputs,
                                     .pool = w->pool,
                                     .start_s = start};
 
@@ -375,6 +364,15 @@ static void time_folder(char *out, size_t size, const char *folder, const site *
     out[length < size ? length : size - 1] = '\0';
 }
 
+/* Planes that the images hold at least: the radiances, and those that are asked for. */
+static size_t least_planes(const scene *s, const char *planes)
+{
+    size_t count = s->band_count + (planes ? 1u : TRUTH_PLANES + SUN_PLANES);
+
+    for (; planes && *planes; planes++) count += *planes == ',';
+    return count;
+}
+
 status render_output(const scene *s, device *const *dev, size_t dev_count,
                      const render_output_options *options)
 {
@@ -385,6 +383,7 @@ status render_output(const scene *s, device *const *dev, size_t dev_count,
     render_pool *pool = NULL;
 
     NEED(folder && at, STATUS_MEMORY, "no memory for %zu times", s->time_count);
+    TRY(scene_limits_disk(s, least_planes(s, options->planes), options->folder));
     for (size_t i = 0; i < s->time_count; i++) {
         at[i] = *s;
         at[i].place.time_s = s->time_s[i];

@@ -12,8 +12,9 @@ typedef struct render_plane {
     image_plane plane; /* its name is the one above */
     bool is_radiance;  /* belongs to the cube; all others to the truth */
     bool is_of_band;
-    bool is_part;    /* one of the parts of a band's radiance: computed only where it is wanted */
-    uint32_t source; /* of a band: band x BAND_PLANES + plane; else which of the others */
+    bool is_surface_c; /* temperatures of surfaces in C, or NO_VALUE */
+    bool is_part;      /* one of the parts of a band's radiance: computed only where it is wanted */
+    uint32_t source;   /* of a band: band x BAND_PLANES + plane; else which of the others */
 } render_plane;
 
 /* Takes some values of a plane, from pixel `first` on. */

@@ -2,13 +2,10 @@
 
 #include "files/json_text.h"
 
-#include <errno.h>
 #include <math.h>
-#include <sha256.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { LEAST_DIGITS = 15 };
 
@@ -104,7 +101,7 @@ static json_t *inputs_of(const render_report *report)
     for (size_t i = 0; i < report->input_count; i++) {
         const render_report_input *input = &report->input[i];
         append(&list, json_pack("{s:o, s:s, s:I}", "path", json_text(input->path), "sha256",
-                                input->sha256, "bytes", (json_int_t)input->bytes));
+                                input->hash.sha256, "bytes", (json_int_t)input->hash.bytes));
     }
     return list;
 }
@@ -176,17 +173,5 @@ status render_report_write(output_folder *folder, const char *name, const render
     TRY(output_file_close(file));
 out:
     json_decref(document);
-    return rc;
-}
-
-status render_report_hash(const char *path, char out_sha256[65], uint64_t *out_bytes)
-{
-    status rc = STATUS_OK;
-    struct stat found;
-
-    NEED(stat(path, &found) == 0, STATUS_FILE, "%s: %s", path, strerror(errno));
-    NEED(SHA256File(path, out_sha256), STATUS_FILE, "%s: %s", path, strerror(errno));
-    *out_bytes = (uint64_t)found.st_size;
-out:
     return rc;
 }

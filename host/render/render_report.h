@@ -2,6 +2,7 @@
 #ifndef RENDER_REPORT_H
 #define RENDER_REPORT_H
 
+#include "files/input_hash.h"
 #include "image/image.h"
 
 typedef struct render_report_band {
@@ -18,8 +19,7 @@ typedef struct render_report_setting {
 
 typedef struct render_report_input {
     const char *path; /* as the scene names it */
-    char sha256[65];
-    uint64_t bytes;
+    input_hash hash;
 } render_report_input;
 
 typedef struct render_report_stage {
@@ -53,8 +53,5 @@ typedef struct render_report {
 /* Writes the file `name`. Numbers read back as they were; one that is not finite is null. A text that
  * is not UTF-8 is taken for Latin-1. */
 status render_report_write(output_folder *folder, const char *name, const render_report *report);
-
-/* SHA-256 of a file in hexadecimal digits, and its size. */
-status render_report_hash(const char *path, char out_sha256[65], uint64_t *out_bytes);
 
 #endif

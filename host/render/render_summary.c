@@ -12,6 +12,7 @@ typedef struct lists {
     render_report_band *bands;
     image_plane *planes;
     size_t plane_count;
+    render_report_input *inputs;
     render_report_stage stages[STAGE_LIMIT];
     size_t stage_count;
     char names[STAGE_LIMIT][64];
@@ -29,17 +30,10 @@ static void list_bands(lists *l, const scene *s)
     }
 }
 
-status render_summary_hash(render_report_input *out, const scene *s)
+static void list_inputs(lists *l, const scene *s)
 {
-    status rc = STATUS_OK;
-
-    for (size_t i = 0; i < s->input_count; i++) {
-        render_report_input *input = &out[i];
-        input->path = s->inputs[i].name;
-        TRY(render_report_hash(s->inputs[i].path, input->sha256, &input->bytes));
-    }
-out:
-    return rc;
+    for (size_t i = 0; i < s->input_count; i++)
+        l->inputs[i] = (render_report_input){s->inputs[i].name, s->inputs[i].hash};
 }
 
 static void add_stage(lists *l, const char *label, const char *name, double seconds)
@@ -80,8 +74,10 @@ static status gather(lists *l, const render_summary *summary)
     const size_t sensor_count = summary->sensor ? image_plane_count(summary->sensor) : 0;
 
     l->planes = calloc(summary->plane_count + sensor_count, sizeof *l->planes);
-    NEED(l->bands && l->planes, STATUS_MEMORY, "no memory for the report");
+    l->inputs = calloc(s->input_count + 1, sizeof *l->inputs);
+    NEED(l->bands && l->planes && l->inputs, STATUS_MEMORY, "no memory for the report");
     list_bands(l, s);
+    list_inputs(l, s);
     for (size_t i = 0; i < summary->plane_count; i++)
         if (summary->values[i]) l->planes[l->plane_count++] = summary->planes[i].plane;
     for (size_t i = 0; i < sensor_count; i++)
@@ -144,7 +140,7 @@ status render_summary_write(output_folder *folder, const char *name, const rende
         .material_count = s->material_count,
         .setting = settings,
         .setting_count = summary->sensor ? SETTING_COUNT : SETTING_COUNT - 2,
-        .input = summary->inputs,
+        .input = l.inputs,
         .input_count = s->input_count,
         .warnings = status_warnings_so_far(),
         .stage = l.stages,

@@ -11,16 +11,11 @@ typedef struct render_summary {
     const render_plane *planes;
     float *const *values; /* shape (plane_count): NULL: the plane was not written */
     size_t plane_count;
-    const image *sensor;               /* NULL: none was written */
-    const image_label *materials;      /* shape (s->material_count) */
-    const render_report_input *inputs; /* shape (s->input_count): render_summary_hash */
+    const image *sensor;          /* NULL: none was written */
+    const image_label *materials; /* shape (s->material_count) */
     render_pool *pool;
     double start_s; /* monotonic clock */
 } render_summary;
-
-/* Names and hashes every input.
- *   out   shape (s->input_count) */
-status render_summary_hash(render_report_input *out, const scene *s);
 
 /* Writes the report. The warnings so far stand in it and stay to be printed. */
 status render_summary_write(output_folder *folder, const char *name, const render_summary *summary);

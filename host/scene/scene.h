@@ -4,6 +4,7 @@
 #define SCENE_H
 
 #include "base/name_table.h"
+#include "files/input_hash.h"
 #include "kernels/media/transmission.h"
 #include "material/emissivity.h"
 #include "material/heat_schedule.h"
@@ -49,10 +50,11 @@ typedef struct scene_material {
 /* "fixed", "therm", "layered". */
 const char *scene_thermal_name(scene_thermal thermal);
 
-/* A file that the scene was read from. */
+/* A file that the scene was read from, and the hash of what was read. */
 typedef struct scene_input {
     char *name; /* as the scene states it */
     char *path; /* where it was found */
+    input_hash hash;
 } scene_input;
 
 typedef struct scene {
@@ -119,6 +121,10 @@ uint32_t scene_lobe_rows(const scene *s, uint32_t material);
 /* Rings of these lobes: those of the hemisphere, joined where they or the sky's directions are many; 1
  * where no emissivity has angles. */
 uint32_t scene_lobe_rings(const scene *s);
+
+/* Writes what a facet is, for messages: its file, object, part and material; the ground's is facet_count.
+ * Returns out. */
+const char *scene_facet_text(const scene *s, uint32_t facet, char *out, size_t size);
 
 /* Fills the records of the facets and, behind them, of the ground plane if there is one.
  *   out   shape (facet_count + 1) */

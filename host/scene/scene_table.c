@@ -17,10 +17,11 @@ void scene_fail(scene_reader *reader, const toml_node *node, const char *format,
     char text[2048];
     va_list arguments;
 
+    reader->failure_count++;
+    if (reader->ending) return;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    reader->failure_count++;
     status_keep(
         status_set(STATUS_FORMAT, "%s: %s", node ? toml_node_where(node) : reader->s->path, text));
 }
@@ -29,7 +30,16 @@ bool scene_took(scene_reader *reader, status rc)
 {
     if (rc == STATUS_OK) return true;
     reader->failure_count++;
-    status_keep(rc);
+    if (!reader->ending) status_keep(rc);
+    if (rc == STATUS_MEMORY || rc == STATUS_INTERRUPTED) reader->ending = rc;
+    return false;
+}
+
+bool scene_took_at(scene_reader *reader, const toml_node *node, status rc)
+{
+    if (rc == STATUS_OK || rc == STATUS_MEMORY || rc == STATUS_INTERRUPTED)
+        return scene_took(reader, rc);
+    scene_fail(reader, node, "%s", status_last());
     return false;
 }
 
@@ -90,8 +100,10 @@ bool scene_table_whole(scene_table *t, const char *key, double low, double high,
     double value = 0.0;
 
     if (!scene_table_number(t, key, low, high, &value)) return false;
-    *out = value;
-    if (value == floor(value)) return true;
+    if (value == floor(value)) {
+        *out = value;
+        return true;
+    }
     const toml_node *node = toml_node_get(t->node, key);
     scene_fail(t->reader, node, "%s: found %g, expected a whole number", toml_node_name(node),
                value);
@@ -117,6 +129,21 @@ bool scene_table_numbers(scene_table *t, const char *key, size_t count, double l
     for (size_t i = 0; i < count; i++)
         if (!in_range(t, node, values[i], low, high)) return false;
     memcpy(out, values, count * sizeof *out);
+    return true;
+}
+
+bool scene_table_whole_numbers(scene_table *t, const char *key, size_t count, double low,
+                               double high, double *out)
+{
+    const toml_node *node = toml_node_get(t->node, key);
+
+    if (!scene_table_numbers(t, key, count, low, high, out)) return false;
+    for (size_t i = 0; i < count; i++) {
+        if (out[i] == floor(out[i])) continue;
+        scene_fail(t->reader, node, "%s: found %s, expected whole numbers", toml_node_name(node),
+                   toml_node_text(node));
+        return false;
+    }
     return true;
 }
 

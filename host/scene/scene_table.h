@@ -11,6 +11,7 @@ typedef struct scene_reader {
     scene *s;
     const toml_node *root;
     int failure_count;
+    status ending; /* STATUS_MEMORY, STATUS_INTERRUPTED: what fails then is told no more */
 } scene_reader;
 
 enum { SCENE_TABLE_KEYS = 64 };
@@ -29,6 +30,9 @@ __attribute__((format(printf, 3, 4))) void scene_fail(scene_reader *reader, cons
 /* Keeps the failure of another room's reader, if rc is one; returns true if it is STATUS_OK. */
 bool scene_took(scene_reader *reader, status rc);
 
+/* The same for a failure that names no file: it is told at a node. */
+bool scene_took_at(scene_reader *reader, const toml_node *node, status rc);
+
 /* Opens a table; a value of another kind is a failure. node may be NULL. */
 scene_table scene_table_open(scene_reader *reader, const toml_node *node, const char *name);
 
@@ -41,6 +45,8 @@ bool scene_table_number(scene_table *t, const char *key, double low, double high
 bool scene_table_whole(scene_table *t, const char *key, double low, double high, double *out);
 bool scene_table_numbers(scene_table *t, const char *key, size_t count, double low, double high,
                          double *out);
+bool scene_table_whole_numbers(scene_table *t, const char *key, size_t count, double low,
+                               double high, double *out);
 bool scene_table_string(scene_table *t, const char *key, const char **out);
 bool scene_table_bool(scene_table *t, const char *key, bool *out);
 /* One of `count` words; sets its index. */

@@ -4,9 +4,9 @@
 #include "files/json_text.h"
 #include "files/output_file.h"
 #include "kernels/records.h"
+#include "meshio/cancel.h"
 #include "meshio/input_file.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,6 +32,11 @@ typedef struct block {
     size_t size;
     double low, high;
 } block;
+
+/* What is left to read of the file. */
+typedef struct contents {
+    const char *next, *end;
+} contents;
 
 static const char arrays_text[] =
     "solar_irradiance (n), tau1 (n), path_range_m (m), tau2 (m, n), path_emitted (m, n), "
@@ -147,17 +152,20 @@ out:
 }
 
 /* Reads the object and the line end behind it: the number keys in any order, the header. */
-static status read_object(atmosphere *a, FILE *file, const char *path)
+static status read_object(atmosphere *a, contents *file, const char *path)
 {
     status rc = STATUS_OK;
     json_error_t error;
     number_key keys[NUMBER_KEYS];
-    json_t *object = json_loadf(file, JSON_REJECT_DUPLICATES | JSON_DISABLE_EOF_CHECK, &error);
+    json_t *object = json_loadb(file->next, (size_t)(file->end - file->next),
+                                JSON_REJECT_DUPLICATES | JSON_DISABLE_EOF_CHECK, &error);
 
     NEED(object, STATUS_FORMAT, "%s:%d: %s, expected a JSON object", path, 1 + error.line,
          error.text);
-    NEED(fgetc(file) == '\n', STATUS_FORMAT, "%s: expected a line end behind the JSON object",
+    file->next += error.position;
+    NEED(*file->next == '\n', STATUS_FORMAT, "%s: expected a line end behind the JSON object",
          path);
+    file->next++;
     list_numbers(a, keys);
     for (int i = 0; i < NUMBER_KEYS; i++) {
         const json_t *value = json_object_get(object, keys[i].name);
@@ -174,44 +182,36 @@ out:
 }
 
 /* The file's size tells whether the counts can be true before anything is allocated. */
-static status check_size(const block *blocks, FILE *file, const char *path)
+static status check_size(const block *blocks, const contents *file, const char *path)
 {
     status rc = STATUS_OK;
-    const long here = ftell(file);
-    double values = 0.0;
+    const size_t bytes = (size_t)(file->end - file->next);
+    double expected = 0.0;
 
-    for (int i = 0; i < ARRAYS; i++) values += (double)blocks[i].size;
-    NEED(here >= 0 && fseek(file, 0, SEEK_END) == 0, STATUS_FILE, "%s: %s", path, strerror(errno));
-    const double bytes = (double)(ftell(file) - here);
-    NEED(bytes == values * (double)sizeof(float), STATUS_FORMAT,
-         "%s: %.0f bytes of numbers stand there, expected %.0f by the counts", path, bytes,
-         values * (double)sizeof(float));
-    NEED(fseek(file, here, SEEK_SET) == 0, STATUS_FILE, "%s: %s", path, strerror(errno));
+    for (int i = 0; i < ARRAYS; i++) expected += (double)(blocks[i].size * sizeof(float));
+    NEED((double)bytes == expected, STATUS_FORMAT,
+         "%s: found %zu bytes of numbers, expected %.0f by the counts", path, bytes, expected);
 out:
     return rc;
 }
 
-static status read_block(const block *b, int number, FILE *file, const char *path)
+static status read_block(const block *b, int number, contents *file, const char *path)
 {
     status rc = STATUS_OK;
-    float *values = NULL;
 
     if (!b->size) goto out;
     TRY(interrupt_check());
-    values = malloc(b->size * sizeof *values);
     *b->at = malloc(b->size * sizeof **b->at);
-    NEED(values && *b->at, STATUS_MEMORY, "%s: no memory to read it", path);
-    NEED(fread(values, sizeof *values, b->size, file) == b->size, STATUS_FILE, "%s: ends early",
-         path);
-    for (size_t i = 0; i < b->size; i++) {
-        const double value = (double)values[i];
-        NEED(value >= b->low && value <= b->high, STATUS_FORMAT,
-             "%s: value %zu of array %d is %g, expected %g to %g", path, i + 1, number + 1, value,
-             b->low, b->high);
-        (*b->at)[i] = value;
+    NEED(*b->at, STATUS_MEMORY, "%s: no memory to read it", path);
+    for (size_t i = 0; i < b->size; i++, file->next += sizeof(float)) {
+        float value;
+        memcpy(&value, file->next, sizeof value);
+        NEED((double)value >= b->low && (double)value <= b->high, STATUS_FORMAT,
+             "%s: value %zu of array %d is %g, expected %g to %g", path, i + 1, number + 1,
+             (double)value, b->low, b->high);
+        (*b->at)[i] = (double)value;
     }
 out:
-    free(values);
     return rc;
 }
 
@@ -281,20 +281,21 @@ status atmosphere_container_read(atmosphere **out, const char *path)
 {
     status rc = STATUS_OK;
     block blocks[ARRAYS];
-    char message[1024];
-    FILE *file = NULL;
+    char message[1024], *text = NULL;
+    size_t size;
     atmosphere *a = calloc(1, sizeof *a);
 
     NEED(a, STATUS_MEMORY, "%s: no memory to read it", path);
-    NEED(!input_file_open(&file, NULL, path, SIZE_MAX, message, sizeof message), STATUS_FILE, "%s",
-         message);
-    NEED(fseek(file, (long)strlen(magic), SEEK_SET) == 0, STATUS_FILE, "%s: %s", path,
-         strerror(errno));
-    TRY(read_object(a, file, path));
+    cancel_ask(interrupt_is_set);
+    NEED(!input_file_read(&text, &size, path, SIZE_MAX - 1, message, sizeof message), STATUS_FILE,
+         "%s", message);
+    NEED(!strncmp(text, magic, strlen(magic)), STATUS_FORMAT, "%s: expected a container", path);
+    contents file = {text + strlen(magic), text + size};
+    TRY(read_object(a, &file, path));
     list_blocks(a, blocks);
-    TRY(check_size(blocks, file, path));
+    TRY(check_size(blocks, &file, path));
     TRY(set_grids(a, path));
-    for (int i = 0; i < ARRAYS; i++) TRY(read_block(&blocks[i], i, file, path));
+    for (int i = 0; i < ARRAYS; i++) TRY(read_block(&blocks[i], i, &file, path));
     TRY(check_rises(a->level_altitude_m, a->level_count, "level_altitude_m", path));
     TRY(check_rises(a->target_altitude_m, a->target_count, "target_altitude_m", path));
     TRY(check_rises(a->range_m, a->range_count, "range_m", path));
@@ -302,7 +303,7 @@ status atmosphere_container_read(atmosphere **out, const char *path)
     *out = a;
     a = NULL;
 out:
-    if (file) fclose(file);
+    free(text);
     atmosphere_free(a);
     return rc;
 }
@@ -374,6 +375,7 @@ status atmosphere_container_write(const atmosphere *a, const char *path)
             const float value = (float)(*blocks[i].at)[k];
             fwrite(&value, sizeof value, 1, output_file_stream(file));
         }
+    TRY(atmosphere_check_file(file));
     TRY(output_file_commit(file));
 out:
     output_file_free(file);

@@ -43,9 +43,9 @@ static inline uint commonest(const hemisphere_count *c, global const material_re
 
 /* Sums up what the rays of the hemisphere met: eq. 2.4.2-6 and the background of 2.4.2.
  * Launch: (count / RAY_LANES, rounded up). out: (count). */
-kernel void background(const uint count, const uint cell_count, TABLES(TREE_TABLES),
-                       TABLES(SURFACE_TABLES), TABLES(HEMISPHERE_TABLES),
-                       global background_record *out)
+SHARED_BODY kernel void background(const uint count, const uint cell_count, TABLES(TREE_TABLES),
+                                   TABLES(SURFACE_TABLES), TABLES(HEMISPHERE_TABLES),
+                                   global background_record *out)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= count) return;

@@ -78,9 +78,10 @@ static void cast_those_alike(ray_queue *shadows, const hemisphere_scene *scene,
  * nothing is lit. cell: (cell_count, 4) direction along upslope, across and normal, weight; hit:
  * (count); out_met: (cell_count, count) the facet met, with HEMISPHERE_LIT where the sun reaches the
  * point met; RECORD_NONE for the sky and for points without a facet. */
-kernel void hemisphere(const uint count, const uint cell_count, const float sun_x,
-                       const float sun_y, const float sun_z, TABLES(TREE_TABLES),
-                       global const float *cell, global const hit_record *hit, global uint *out_met)
+SHARED_BODY kernel void hemisphere(const uint count, const uint cell_count, const float sun_x,
+                                   const float sun_y, const float sun_z, TABLES(TREE_TABLES),
+                                   global const float *cell, global const hit_record *hit,
+                                   global uint *out_met)
 {
     const uint first = get_global_id(0) * RAY_GROUPS * RAY_LANES;
     const uint first_cell = get_global_id(1) * HEMISPHERE_CELLS;

@@ -5,9 +5,9 @@
 /* Replaces the background of targets with a specular share by what the mirrored ray meets (thesis 2.5.6): a facet
  * (shape factor 0) or the sky (1).
  * Launch: (count). hit: per pixel; background: per pixel, changed where the target has a specular share */
-kernel void mirror(const uint count, const camera_record camera, TABLES(TREE_TABLES),
-                   TABLES(SURFACE_TABLES), global const hit_record *hit,
-                   global background_record *background)
+SHARED_BODY kernel void mirror(const uint count, const camera_record camera, TABLES(TREE_TABLES),
+                               TABLES(SURFACE_TABLES), global const hit_record *hit,
+                               global background_record *background)
 {
     const uint i = get_global_id(0);
     if (i >= count) return;

@@ -19,10 +19,10 @@ static ray between(const world_record *world, const float *from, const float *no
  * Launch: (frame.pixel_count).
  * out_paths: shape (TRANSMISSION_PATHS, pixel_count)
  * direct, background_direct: per pixel, what of the sun's broad band reaches them */
-kernel void crossing(const radiometry_record frame, const camera_record camera,
-                     const world_record world, TABLES(MEDIUM_TABLES), TABLES(PIXEL_TABLES),
-                     global transmission_path *out_paths, global float *direct,
-                     global float *background_direct)
+SHARED_BODY kernel void crossing(const radiometry_record frame, const camera_record camera,
+                                 const world_record world, TABLES(MEDIUM_TABLES),
+                                 TABLES(PIXEL_TABLES), global transmission_path *out_paths,
+                                 global float *direct, global float *background_direct)
 {
     const uint pixel = get_global_id(0);
     if (pixel >= frame.pixel_count) return;

@@ -95,10 +95,11 @@ static void add_gloss(const incident_tables *t, const hemisphere_tables *rays, c
  * rays: of params.cell_count cells; of pixels, or of facets where params.is_of_facets
  * spectra: of the frame's samples, the knots
  * out: (pixel_count, 2, sample_count), W m-2 sr-1 um-1: of the sky, and of facets and ground */
-kernel void incident(const radiometry_record frame, const camera_record camera,
-                     const incident_record params, global const float *dome, TABLES(SURFACE_TABLES),
-                     TABLES(LIGHT_TABLES), TABLES(HEMISPHERE_TABLES), TABLES(SPECTRA_TABLES),
-                     global float *out)
+SHARED_BODY kernel void incident(const radiometry_record frame, const camera_record camera,
+                                 const incident_record params, global const float *dome,
+                                 TABLES(SURFACE_TABLES), TABLES(LIGHT_TABLES),
+                                 TABLES(HEMISPHERE_TABLES), TABLES(SPECTRA_TABLES),
+                                 global float *out)
 {
     const uint begin = get_global_id(0) * RAY_GROUPS * LANES_WIDTH;
     const uint end = min(begin + RAY_GROUPS * LANES_WIDTH, frame.pixel_count);

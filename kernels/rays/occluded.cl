@@ -5,8 +5,8 @@
 /* Tells which of any rays meet something.
  * Launch: (count / RAY_BATCH, rounded up). rays: (6, stride), stride >= count: origins, directions;
  * out_met: (count) 0 or 1. */
-kernel void occluded(const uint count, const uint stride, TABLES(TREE_TABLES),
-                     global const float *rays, global uchar *out_met)
+SHARED_BODY kernel void occluded(const uint count, const uint stride, TABLES(TREE_TABLES),
+                                 global const float *rays, global uchar *out_met)
 {
     const uint first = get_global_id(0) * RAY_BATCH;
     if (first >= count) return;

@@ -9,8 +9,9 @@
  * Launch: (columns, rows) / PRIMARY_SIDE, rounded up; rows: those that hold pixels first_pixel ..
  * first_pixel + count - 1, counted along the rows. Of several samples a pixel: (count / RAY_LANES,
  * rounded up). out_hit: (count), ranges in metres. */
-kernel void primary(const uint count, const uint first_pixel, const uint columns,
-                    const camera_record camera, TABLES(TREE_TABLES), global hit_record *out_hit)
+SHARED_BODY kernel void primary(const uint count, const uint first_pixel, const uint columns,
+                                const camera_record camera, TABLES(TREE_TABLES),
+                                global hit_record *out_hit)
 {
     const uint left = get_global_id(0) * PRIMARY_SIDE;
     const uint top = first_pixel / columns + get_global_id(1) * PRIMARY_SIDE;

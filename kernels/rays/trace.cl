@@ -4,8 +4,9 @@
 /* Finds the nearest facet along any rays.
  * Launch: (count / RAY_BATCH, rounded up). rays: (6, stride), stride >= count: origins, directions;
  * out_range: (count) in lengths of the direction, INFINITY for a miss; out_facet: (count). */
-kernel void trace(const uint count, const uint stride, TABLES(TREE_TABLES),
-                  global const float *rays, global float *out_range, global uint *out_facet)
+SHARED_BODY kernel void trace(const uint count, const uint stride, TABLES(TREE_TABLES),
+                              global const float *rays, global float *out_range,
+                              global uint *out_facet)
 {
     const uint first = get_global_id(0) * RAY_BATCH;
     if (first >= count) return;

@@ -130,10 +130,10 @@ static void cast(sun_rays *rays, const lit_points *points, const ray_beam_box *o
  * facets: per facet, the ground's too; hit: (count); order: (count), which points stand side by side,
  *   NULL: as they are; lit: (count, day.stride), the bits of which are written. The ground plane is
  *   never in shadow. */
-kernel void sun_history(const uint count, const sun_day day, TABLES(TREE_TABLES),
-                        global const facet_record *facets, global const float *sun,
-                        global const hit_record *hit, OPTIONAL global const uint *order,
-                        global uint *lit)
+SHARED_BODY kernel void sun_history(const uint count, const sun_day day, TABLES(TREE_TABLES),
+                                    global const facet_record *facets, global const float *sun,
+                                    global const hit_record *hit, OPTIONAL global const uint *order,
+                                    global uint *lit)
 {
     const uint first = get_global_id(0) * RAY_GROUPS * RAY_LANES, word = get_global_id(1);
     if (first >= count) return;

@@ -4,8 +4,9 @@
 /* Tells which points the sun reaches.
  * Launch: (count / RAY_LANES, rounded up). sun_x, sun_y, sun_z: unit vector towards the sun;
  * hit: (count); out_lit: (count) 0 or 1. */
-kernel void sunlight(const uint count, const float sun_x, const float sun_y, const float sun_z,
-                     TABLES(TREE_TABLES), global const hit_record *hit, global float *out_lit)
+SHARED_BODY kernel void sunlight(const uint count, const float sun_x, const float sun_y,
+                                 const float sun_z, TABLES(TREE_TABLES),
+                                 global const hit_record *hit, global float *out_lit)
 {
     const uint first = get_global_id(0) * RAY_LANES;
     if (first >= count) return;

@@ -167,9 +167,10 @@ static uint go_on(const patch_run *p, conduction_progress *at, global float *out
  * patch filled up to a multiple of 16 with facets without neighbours. patch_first: (patch_count + 1);
  * facets, loads, exchange: as in layered.cl, but nothing is lateral yet; launched again until all patches
  * are done; out_w_m2: (2 steps, facet_count), lateral_w_m2 of layered_history.h. */
-kernel void conduction(const thermal_span span, const uint patch_count,
-                       global const layered_record *facets, TABLES(LOAD_TABLES),
-                       TABLES(EXCHANGE_TABLES), TABLES(PATCH_TABLES), global float *out_w_m2)
+SHARED_BODY kernel void conduction(const thermal_span span, const uint patch_count,
+                                   global const layered_record *facets, TABLES(LOAD_TABLES),
+                                   TABLES(EXCHANGE_TABLES), TABLES(PATCH_TABLES),
+                                   global float *out_w_m2)
 {
     const uint patch = get_global_id(0);
     const size_t n = span.facet_count;

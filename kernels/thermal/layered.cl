@@ -2,8 +2,9 @@
 
 /* Launch: (facet_count / LANES_WIDTH, rounded up). facets: shape (facet_count); the rest as in
  * thermal.cl. */
-kernel void layered(const thermal_span span, global const layered_record *facets,
-                    TABLES(LOAD_TABLES), TABLES(EXCHANGE_TABLES), global float *temperature_k)
+SHARED_BODY kernel void layered(const thermal_span span, global const layered_record *facets,
+                                TABLES(LOAD_TABLES), TABLES(EXCHANGE_TABLES),
+                                global float *temperature_k)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= span.facet_count) return;

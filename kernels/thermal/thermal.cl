@@ -19,9 +19,9 @@ static void set_bodies(thermal_body *body, lanes *stated_k, uint *material, ther
 /* Launch: (facet_count / LANES_WIDTH, rounded up).
  * facets: shape (facet_count), thickness above 0 and a material of `materials` unless its
  * temperature is stated; temperature_k: (row_count, facet_count). */
-kernel void thermal(const thermal_span span, global const facet_record *facets,
-                    global const material_record *materials, TABLES(LOAD_TABLES),
-                    global float *temperature_k)
+SHARED_BODY kernel void thermal(const thermal_span span, global const facet_record *facets,
+                                global const material_record *materials, TABLES(LOAD_TABLES),
+                                global float *temperature_k)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= span.facet_count) return;

@@ -129,6 +129,26 @@ def test_the_report_names_inputs_with_their_hashes(made):
                                                                                   "plane.obj"]
 
 
+@pytest.mark.parametrize("change", [lambda path: path.unlink(),
+                                    lambda path: path.rename(path.with_suffix(".old")),
+                                    lambda path: path.write_text(path.read_text() + "# edited\n")])
+def test_inputs_that_change_while_it_renders_have_the_hash_of_what_was_used(program, tmp_path, change):
+    scene = program.write_scene(tmp_path)
+    inputs = [scene, tmp_path / "plane.obj"]
+    used = [hashlib.sha256(path.read_bytes()).hexdigest() for path in inputs]
+    work = subprocess.Popen([program.path, "render", scene, "-o", tmp_path / "out",
+                             "--size", "1200x1200"], stderr=subprocess.PIPE)
+    while not any(tmp_path.glob("out/.radsig-*/*")):  # the scene is read then
+        assert work.poll() is None
+        time.sleep(0.005)
+    for path in inputs:
+        change(path)
+
+    assert work.wait() == 0, work.stderr.read()
+    report = json.loads((tmp_path / "out/plane.json").read_text())
+    assert [each["sha256"] for each in report["inputs"]] == used
+
+
 def test_the_report_is_json_whatever_the_paths_bytes_are(program, tmp_path):
     folder = os.fsencode(tmp_path) + b"/caf\xe9 \xc0\x80"  # Latin-1, an overlong form
     os.mkdir(folder)

@@ -85,6 +85,19 @@ def test_values_and_buffers_are_told_apart(read):
         ("order", "uint", True, True, True), ("out", "float", True, False, False)]
 
 
+def test_a_shared_body_is_a_function_that_the_kernel_calls_and_its_lines_stay(read):
+    kernel = read("SHARED_BODY kernel void some(const uint count, TABLES(TREE_TABLES),\n"
+                  "                             global float *out)", tree=TREE)
+    text = ("/* Some. */\nSHARED_BODY kernel void some(const uint count, TABLES(TREE_TABLES),\n"
+            "                             global float *out)\n{\n    out[get_global_id(0)] = 0.0f;\n}\n")
+
+    made = launches.with_shared_body(kernel, text)
+
+    assert made.split("\n")[4] == "    out[BODY_ID(0)] = 0.0f;"
+    assert "some_shared_body(count, world, nodes, out, get_global_id(0), get_global_id(1));" in made
+    assert launches.with_shared_body(kernel, text.replace("SHARED_BODY ", "")).count("BODY") == 0
+
+
 TREE = """#define TREE_TABLES(TABLE, AND) \\
     TABLE(world_record, world) AND \\
     TABLE(OPTIONAL global const bvh_node *, nodes)
