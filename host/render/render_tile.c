@@ -401,7 +401,7 @@ static status refuse(const render_tile_memory *t, const render_shared *r, const 
     char text[1024] = "the sky";
 
     NEED(met, STATUS_MEMORY, "no memory for the samples of a pixel");
-    TRY(device_download(r->dev, t->hit, end, met));
+    TRY(device_download(r->dev, t->pixels.hit, end, met));
     for (size_t i = first; i < end && facet == RECORD_NONE; i++) facet = met[i].facet;
     if (facet != RECORD_NONE) scene_facet_text(r->s, facet, text, sizeof text);
     rc = status_set(STATUS_ARGUMENT, "%s: found %g in the plane %s, expected %s", text,
