@@ -93,7 +93,7 @@ static void read_all_stated(material_sources *from)
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < i; k++)
             if (!strcmp(from->stated[i].name, from->stated[k].name))
-                scene_fail(from->reader, from->stated[i].node, "%s: there are two materials \"%s\"",
+                scene_fail(from->reader, from->stated[i].node, "%s: two materials are named \"%s\"",
                            toml_node_name(from->stated[i].node), from->stated[i].name);
 }
 
