@@ -1,6 +1,5 @@
 #include "scene/scene_parts.h"
 
-#include "base/terminal_text.h"
 #include "material/material.h"
 
 #include <math.h>
@@ -48,10 +47,7 @@ static stated_material read_stated(scene_reader *reader, const toml_node *node)
                          .layered = layered_matter_default()};
 
     scene_table_require(&t, "name", "the name that the geometry gives it");
-    if (scene_table_string(&t, "name", &m.name) && !terminal_text_is_clean(m.name))
-        scene_fail(reader, node,
-                   "%s.name: found \"%s\", expected a name without control characters",
-                   toml_node_name(node), m.name);
+    scene_table_name(&t, "name", "", "a name", &m.name);
     scene_table_number(&t, "emissivity", 0.0, 1.0, &m.emissivity);
     scene_table_file(&t, "emissivity_file", &m.emissivity_path);
     scene_table_number(&t, "extinction_per_km", 0.0, 1e6, &m.extinction_per_km);

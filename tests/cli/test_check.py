@@ -112,7 +112,7 @@ def test_a_summary_names_units(program, folder):
     ("pixels = [16, 12]", "pixels = [16, 12.5]", "pixels", "expected whole numbers"),
     ("pixels = [16, 12]", "pixels = [16, 0]", "pixels", "from 1 to"),
     ("[site]", "[site", "[site", ""),
-    ('name = "lwir"', 'name = "lw ir"', "[[band]]", "expected a word"),
+    ('name = "lwir"', 'name = "lw ir"', "lw ir", "expected a word"),
     ("wavelength_um = [8.0, 14.0]", "wavelength_um = [14.0, 8.0]", "wavelength_um",
      "expected the low edge first"),
     ("T13:20:00-04:00", "T13:20:00", "time =", "a date and time with offset"),
