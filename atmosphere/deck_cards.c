@@ -1,5 +1,6 @@
 #include "deck_cards.h"
 
+#include "base/number.h"
 #include "sky/card_deck.h"
 
 #include <limits.h>
@@ -134,8 +135,8 @@ static status take_air(taker *t)
     run->plain = !own_profile && !own_aerosol && cloud < CIRRUS && structure == 0;
     run->whole = !own_profile || run->im == 1;
     if (modtran && !run->plain) {
-        rc =
-            record_file_reject(t->file, "a deck for LOWTRAN: of MODTRAN's none with further cards");
+        rc = record_file_reject(t->file,
+                                "a deck for LOWTRAN, or one for MODTRAN without further cards");
         goto out;
     }
     if (cloud >= CIRRUS) TRY(take(t, "card 2A"));
@@ -170,15 +171,14 @@ static status take_end(taker *t)
 {
     status rc = STATUS_OK;
     const char *text;
-    char *end;
+    int64_t irpt;
 
     TRY(record_file_text(t->file, &text, "card 5"));
-    const long irpt = strtol(text, &end, 10);
-    t->run->irpt = irpt < INT_MIN || irpt > INT_MAX ? INT_MAX : (int)irpt;
-    if (*end || end == text) {
+    if (!number_read_whole(text, INT_MIN, INT_MAX, &irpt)) {
         rc = record_file_reject(t->file, "card 5: one number");
         goto out;
     }
+    t->run->irpt = (int)irpt;
     TRY(card_deck_check_irpt(t->run->irpt, t->run->iemsct, t->file));
     t->run->count++;
 out:

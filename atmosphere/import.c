@@ -26,7 +26,7 @@ enum { PATH_SIZE = 4096 };
 static bool has_count(scene_table *t, const toml_node *node, size_t found, size_t count)
 {
     if (found == count) return true;
-    scene_fail(t->reader, node, "%s: holds %zu, expected %zu", toml_node_name(node), found, count);
+    scene_fail(t->reader, node, "%s: found %zu, expected %zu", toml_node_name(node), found, count);
     return false;
 }
 
@@ -141,7 +141,7 @@ static status take(double *to, const double *from, int n, const char *file, cons
 {
     status rc = STATUS_OK;
 
-    NEED(from, STATUS_FORMAT, "%s: has no column %s, expected one", file, column);
+    NEED(from, STATUS_FORMAT, "%s: expected a column %s", file, column);
     for (int i = 0; i < n; i++) to[i] = from[n - 1 - i];
 out:
     return rc;

@@ -42,8 +42,8 @@ static status check_reach(const sonde *s, const atmosphere_plan *plan)
                           plan->radiosonde, high);
     if (plan->inversion_altitude_m > 0.0 && plan->inversion_altitude_m <= plan->ground_altitude_m)
         return status_set(STATUS_ARGUMENT,
-                          "inversion_altitude_m: is %g, expected metres above sea level above the "
-                          "ground at %g",
+                          "inversion_altitude_m: found %g, expected metres above sea level, more "
+                          "than the ground's %g",
                           plan->inversion_altitude_m, plan->ground_altitude_m);
     return STATUS_OK;
 }

@@ -66,7 +66,7 @@ static void warn_of_night(const database_plan *g, const run_list *r)
     const double shortest_um = 1e4 / g->plan.wavenumber_max_cm1;
 
     if (!run_list_is_night(r) || shortest_um > THERMAL_FROM_UM) return;
-    status_warn("%s: the sun stands %.1f degrees below the horizon: every solar term is 0 and the "
+    status_warn("%s: the sun is %.1f degrees below the horizon: every solar term is 0 and the "
                 "database holds no light below %g um; choose another time, or wavenumbers of "
                 "thermal bands alone",
                 g->s->path, run_list_sun(r).zenith_rad * 180.0 / M_PI - 90.0, THERMAL_FROM_UM);
@@ -113,7 +113,7 @@ static status run(const char *scene_path, const make_options *options)
     }
     NEED(tool_is_container(options->output) || (!g->plan.target_count && !g->plan.range_count),
          STATUS_ARGUMENT,
-         "%s: a text file has no place for target_altitude_m and range_m, expected -o FILE.radc",
+         "%s: a text file cannot hold target_altitude_m and range_m, expected -o FILE.radc",
          options->output);
     TRY(tool_check_output(options->output));
     TRY(sonde_profile_cards(&profile_cards, g));

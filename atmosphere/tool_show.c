@@ -84,7 +84,7 @@ static void print_header(char *header)
 
     terminal_text_clean(header);
     fwrite(header, 1, cards ? (size_t)(cards - header) : strlen(header), stdout);
-    if (cards) puts("# The cards of all runs stand in the file.");
+    if (cards) puts("# The cards of all runs are in the file.");
 }
 
 static status run(const char *path, const char *plot)

@@ -49,7 +49,7 @@ toml::node &step(toml::node &parent, const std::string &part, const std::string 
     if (toml::table *table = parent.as_table())
         return table->insert(part, toml::table{}).first->second;
     fail(setting, failure_quote(part.data(), part.size()) +
-                      " lies in a value, expected a table or an array");
+                      " is inside a value, expected a table or an array");
 }
 
 void put(toml::node &parent, const std::string &part, toml::node &&value,
@@ -62,7 +62,7 @@ void put(toml::node &parent, const std::string &part, toml::node &&value,
         table->insert_or_assign(part, std::move(value));
     } else {
         fail(setting, failure_quote(part.data(), part.size()) +
-                          " lies in a value, expected a table or an array");
+                          " is inside a value, expected a table or an array");
     }
 }
 

@@ -202,8 +202,7 @@ status window_open(surface **out, int width, int height)
     NEED(w, STATUS_MEMORY, "no memory for a window");
     w->base = (surface){load, measure, resize, show, take, name, free_surface};
     NEED(glfwInit(), STATUS_DEVICE,
-         "there is no display to open a window on (%s): --offscreen FILE.png draws without one",
-         reason());
+         "no display to open a window on (%s): --offscreen FILE.png draws without one", reason());
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);

@@ -39,7 +39,7 @@ status command_refuse_material(const material_library *library, const char *path
     char hint[SPELLING_HINT_SIZE];
 
     material_offer_names(library, &near);
-    return status_set(STATUS_ARGUMENT, "%s: has no material '%s'%s", path, name,
+    return status_set(STATUS_ARGUMENT, "%s: unknown material '%s'%s", path, name,
                       spelling_hint(&near, "", hint));
 }
 

@@ -50,11 +50,11 @@ static int check_use(const option_table *t, const thermal_request *r)
             return program_misuse(command, "--%s needs --sensitivity", of_study[i]);
     for (int i = 0; i < 5; i++)
         if (r->objects && option_table_has(t, of_facet[i]))
-            return program_misuse(command, "--objects says what --%s says: give one", of_facet[i]);
+            return program_misuse(command, "--objects and --%s exclude each other", of_facet[i]);
     if (!r->material && !r->is_sensitivity) return program_misuse(command, "needs --material NAME");
     if (!option_table_has(t, "thickness-cm") && !r->objects)
-        return program_misuse(command,
-                              "needs --thickness-cm X: a material has none, its facets have");
+        return program_misuse(
+            command, "needs --thickness-cm X: the thickness is the facet's, not the material's");
     return OPTION_TABLE_DONE;
 }
 

@@ -15,8 +15,8 @@ static void warn_about_longwave(const weather *w, const char *path)
 
     for (size_t i = 0; i < w->count; i++) count += w->record[i].longwave_w_m2 > 0.0;
     if (count > 0)
-        status_warn("%s: leaves out the measured longwave of %zu records: who reads it takes the "
-                    "sky's from the air",
+        status_warn("%s: leaves out the measured longwave of %zu records: readers of the file will "
+                    "estimate it from air temperature",
                     path, count);
 }
 

@@ -144,7 +144,7 @@ static status choose(device *dev, int index)
     TRY(device_list(&info, &count));
     TRY(find_devices(choices, &count));
     NEED(index < (int)count, STATUS_ARGUMENT,
-         "device %d: there are devices 0 to %zu (radsig devices)", index, count - 1);
+         "device %d: unknown, expected 0 to %zu (radsig devices)", index, count - 1);
     for (size_t i = 0; index < 0; i++)
         if (info[i].is_default) index = (int)i;
     dev->id = choices[index].id;

@@ -189,7 +189,7 @@ status record_file_reject(const record_file *file, const char *expected, ...)
     va_start(arguments, expected);
     vsnprintf(wanted, sizeof wanted, expected, arguments);
     va_end(arguments);
-    return status_set(STATUS_FORMAT, "%s:%d: '%.100s' stands there, expected %s", file->path,
+    return status_set(STATUS_FORMAT, "%s:%d: found '%.100s', expected %s", file->path,
                       file->taken_line, file->taken, wanted);
 }
 

@@ -26,10 +26,10 @@ static status count_steps(uint32_t *out, const char *name, double step_deg, doub
     double count = 0;
 
     NEED(step_deg > 0 && step_deg <= range_deg, STATUS_ARGUMENT,
-         "a step in %s of %g degrees, expected above 0 and up to %g", name, step_deg, range_deg);
+         "step in %s: found %g degrees, expected above 0 and up to %g", name, step_deg, range_deg);
     count = round(range_deg / step_deg);
     NEED(count <= CELL_LIMIT && fabs(count * step_deg - range_deg) < 1e-6 * range_deg,
-         STATUS_ARGUMENT, "a step in %s of %g degrees does not divide %g", name, step_deg,
+         STATUS_ARGUMENT, "step in %s: found %g degrees, expected a divisor of %g", name, step_deg,
          range_deg);
     *out = (uint32_t)count;
 out:

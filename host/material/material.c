@@ -41,13 +41,13 @@ static status read_identity(material *m, const material_library *before, record_
 
     TRY(read_name(file, m->name, sizeof m->name, "a material's name"));
     if (material_by_name(before, m->name)) {
-        rc = record_file_reject(file, "a name that no material before has");
+        rc = record_file_reject(file, "a name that no earlier material has");
         goto out;
     }
     TRY(record_file_count(file, 0, 1 << 24, &code, "a material's code"));
     m->code = (int)code;
     if (material_by_code(before, m->code))
-        rc = record_file_reject(file, "a code that no material before has");
+        rc = record_file_reject(file, "a code that no earlier material has");
 out:
     return rc;
 }

@@ -52,7 +52,7 @@ static int answer(const program *p, int argc, char **argv)
         return c ? c->run(2, arguments) : refuse(p, argv[2]);
     }
     if (argc > 2)
-        return program_misuse(p->name, "%s stands alone, found '%s'", argv[1], argv[argc - 1]);
+        return program_misuse(p->name, "%s takes no argument, found '%s'", argv[1], argv[argc - 1]);
     if (!strcmp(argv[1], "--version"))
         printf("%s " RADSIG_VERSION "\n", p->name);
     else

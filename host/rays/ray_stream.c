@@ -62,8 +62,7 @@ static status read_lines(ray_stream *stream, ray_batch *out)
 
     while (out->count < RAY_BATCH_SIZE && getline(&line, &size, stream->file) >= 0) {
         const char *text = stream->ray_count == 0 ? record_text_begin(line) : line;
-        NEED(parse(text, ray), STATUS_FORMAT,
-             "line %llu: '%.*s' stands there, expected ox oy oz dx dy dz",
+        NEED(parse(text, ray), STATUS_FORMAT, "line %llu: found '%.*s', expected ox oy oz dx dy dz",
              (unsigned long long)stream->ray_count + 1, (int)strcspn(line, "\r\n"), line);
         TRY(add_ray(stream, out, ray));
     }

@@ -79,8 +79,8 @@ static status check_probe(const scene *s, const render_output_options *options)
 
     NEED(!options->wants_probe ||
              (at[0] < (uint32_t)s->camera.columns && at[1] < (uint32_t)s->camera.rows),
-         STATUS_ARGUMENT, "there is no pixel in column %u, row %u to probe, expected 0,0 to %d,%d",
-         at[0], at[1], s->camera.columns - 1, s->camera.rows - 1);
+         STATUS_ARGUMENT, "probe: found column %u, row %u, expected 0,0 to %d,%d", at[0], at[1],
+         s->camera.columns - 1, s->camera.rows - 1);
 out:
     return rc;
 }

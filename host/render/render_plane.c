@@ -112,6 +112,6 @@ status render_plane_check(const render_plane *list, size_t count, const char *na
         if (!strcmp(list[i].name, name)) return STATUS_OK;
         spelling_offer(&near, list[i].name);
     }
-    return status_set(STATUS_ARGUMENT, "there is no plane '%s' in this scene%s", name,
+    return status_set(STATUS_ARGUMENT, "unknown plane '%s'%s", name,
                       spelling_hint(&near, "", hint));
 }

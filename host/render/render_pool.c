@@ -36,7 +36,7 @@ static void drop(render_pool *pool, size_t index)
 static status leave_out(render_pool *pool, size_t index, status rc)
 {
     if (pool->count == 1 || (rc != STATUS_DEVICE && rc != STATUS_MEMORY)) return rc;
-    status_warn("%s failed, the others do without it: %s", pool->members[index].name,
+    status_warn("%s failed, the others go on without it: %s", pool->members[index].name,
                 status_message());
     drop(pool, index);
     return STATUS_OK;

@@ -135,7 +135,7 @@ static size_t run_workers(turn *turns, size_t count)
         t->has_thread = pthread_create(&t->thread, NULL, work, t) == 0;
         working += t->has_thread;
         if (!t->has_thread)
-            status_warn("%s is done without: no thread can be started", t->worker->name);
+            status_warn("%s is not used: no thread can be started", t->worker->name);
     }
     work(&turns[0]);
     for (size_t i = 1; i < count; i++)

@@ -44,7 +44,7 @@ static void read_phase(atmosphere_plan *plan, scene_table *t)
     if (scene_table_word(t, "phase_function", phases, COUNT(phases), &word))
         plan->phase = (atmosphere_phase)word;
     if (plan->phase == ATMOSPHERE_PHASE_HENYEY_GREENSTEIN)
-        scene_table_require(t, "asymmetry", "a number from -.99 to .99");
+        scene_table_require(t, "asymmetry", "a number from -0.99 to 0.99");
     if (plan->phase == ATMOSPHERE_PHASE_TABLE)
         scene_table_require(t, "phase_table", "a file: angle and four phase functions a line");
     scene_table_number(t, "asymmetry", -.99, .99, &plan->asymmetry);
@@ -91,7 +91,7 @@ static void read_paths(atmosphere_plan *plan, scene_table *t)
     scene_table_number(t, "sensor_azimuth_deg", -360.0, 360.0, &plan->sensor_azimuth_deg);
     if (plan->sensor_altitude_m <= plan->ground_altitude_m || plan->sensor_altitude_m > SPACE_M)
         scene_fail(t->reader, t->node,
-                   "%s.sensor_altitude_m: is %g, expected metres above the ground, up to %g",
+                   "%s.sensor_altitude_m: found %g, expected metres above the ground, up to %g",
                    toml_node_name(t->node), plan->sensor_altitude_m, SPACE_M);
     if (!scene_table_numbers(t, "path_zenith_deg", 3, 0.0, 89.0, grid)) return;
     plan->path_zenith_first_deg = grid[0];
@@ -152,14 +152,15 @@ static void read_spectrum(atmosphere_plan *plan, scene_table *t)
     const double sample = plan->sample_step_cm1;
     if (!is_multiple(step, 5.0) || !is_multiple(sample, 5.0) ||
         (step != sample && !is_multiple(step, 2.0 * sample)))
-        scene_fail(t->reader, t->node,
-                   "%s: wavenumber_step_cm1 is %g and sample_step_cm1 %g, expected multiples of 5, "
-                   "the first the second or an even multiple of it",
-                   toml_node_name(t->node), step, sample);
+        scene_fail(
+            t->reader, t->node,
+            "%s: found wavenumber_step_cm1 %g and sample_step_cm1 %g, expected multiples of 5, "
+            "the first the second or an even multiple of it",
+            toml_node_name(t->node), step, sample);
     else if (!is_multiple(low, 5.0) || plan->wavenumber_max_cm1 < low ||
              !is_multiple(plan->wavenumber_max_cm1 - low, step))
         scene_fail(t->reader, t->node,
-                   "%s.wavenumber_cm1: is %g to %g, expected multiples of 5, a whole number of "
+                   "%s.wavenumber_cm1: found %g to %g, expected multiples of 5, a whole number of "
                    "steps of %g apart",
                    toml_node_name(t->node), low, plan->wavenumber_max_cm1, step);
 }
@@ -177,10 +178,10 @@ static void read_sky(atmosphere_plan *plan, scene_table *t)
     if (!is_multiple(90.0, plan->sky_zenith_step_deg) ||
         !is_multiple(360.0, plan->sky_azimuth_step_deg))
         scene_fail(t->reader, steps.node,
-                   "sky_step_deg: is %g and %g, expected divisors of 90 and of 360",
+                   "sky_step_deg: found %g and %g, expected divisors of 90 and of 360",
                    plan->sky_zenith_step_deg, plan->sky_azimuth_step_deg);
     if (plan->thesis && steps.node)
-        scene_fail(t->reader, steps.node, "sky_step_deg: mode \"thesis\" means 15 and 30");
+        scene_fail(t->reader, steps.node, "sky_step_deg: expected 15 and 30 in mode \"thesis\"");
 }
 
 /* What the scene says elsewhere. */

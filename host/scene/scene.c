@@ -257,7 +257,7 @@ status scene_keep_bands(scene *s, const char *names)
         spelling near = spelling_of(name);
         for (; i < s->band_count && strcmp(s->bands[i].name, name); i++)
             spelling_offer(&near, s->bands[i].name);
-        NEED(i < s->band_count, STATUS_ARGUMENT, "there is no band '%s' in this scene%s", name,
+        NEED(i < s->band_count, STATUS_ARGUMENT, "unknown band '%s'%s", name,
              spelling_hint(&near, "", hint));
         kept[i] = true;
     }

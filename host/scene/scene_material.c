@@ -103,7 +103,7 @@ static void read_all_stated(material_sources *from)
         if (number_of(from, from->stated_numbers, m.name) == from->stated_count)
             from->stated[from->stated_count++] = m;
         else
-            scene_fail(from->reader, m.node, "%s: there are two materials \"%s\"",
+            scene_fail(from->reader, m.node, "%s: two materials are named \"%s\"",
                        toml_node_name(m.node), m.name);
     }
 }

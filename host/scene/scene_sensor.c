@@ -103,7 +103,7 @@ static void read_gaussian(scene_table *t, band *b)
     if (!scene_table_number(t, "fwhm_um", 1e-4, 20.0, &fwhm_um)) return;
     if (centre_um - 2.0 * fwhm_um < .2)
         scene_fail(t->reader, toml_node_get(t->node, "fwhm_um"),
-                   "%s.fwhm_um: found %g, 2 of which below %g um lie below .2 um",
+                   "%s.fwhm_um: found %g, 2 of which below %g um lie below 0.2 um",
                    toml_node_name(t->node), fwhm_um, centre_um);
     else
         scene_took(t->reader, response_gaussian(&b->tabulated, centre_um, fwhm_um));
@@ -162,7 +162,7 @@ static void add_band(scene_reader *reader, const toml_node *node, band b, const 
 
     for (uint32_t i = 0; i < s->band_count; i++) {
         if (strcmp(s->bands[i].name, name)) continue;
-        scene_fail(reader, node, "%s.name: there are two bands \"%s\"", toml_node_name(node), name);
+        scene_fail(reader, node, "%s.name: two bands are named \"%s\"", toml_node_name(node), name);
         break;
     }
     b.name = strdup(name);

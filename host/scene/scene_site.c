@@ -16,7 +16,9 @@ static bool read_one_time(scene_table *t, const toml_node *node, site *out)
 
     if (toml_node_time(&iso, node, message, sizeof message) != 0)
         return scene_took(t->reader, status_set(STATUS_FORMAT, "%s", message));
-    return scene_took_at(t->reader, node, site_parse_time(iso, &out->time_s, &out->utc_offset_min));
+    if (site_parse_time(iso, &out->time_s, &out->utc_offset_min) == STATUS_OK) return true;
+    scene_fail(t->reader, node, "%s: %s", toml_node_name(node), status_last());
+    return false;
 }
 
 /* Several times: of one local day, in its order, so that one history of weather holds for all. */

@@ -34,8 +34,8 @@ static void check_angles(const view *v, const double angles_deg[3], const char *
 
     if (fabs(angles_deg[0] - elevation) > angle_tolerance_deg ||
         (!steep && fabs(remainder(angles_deg[1] - azimuth, 360.0)) > angle_tolerance_deg))
-        status_warn("%s:%d: elevation %g and azimuth %g stand there, target and position give "
-                    "%.3f and %.3f, which are used",
+        status_warn("%s:%d: found elevation %g and azimuth %g, target and position give %.3f and "
+                    "%.3f, which are used",
                     path, line, angles_deg[0], angles_deg[1], elevation, azimuth);
 }
 

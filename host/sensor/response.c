@@ -75,7 +75,7 @@ static status read_point(response *r, unit of, record_file *file)
     l[n] = in_um(of, pair[0]);
     r->value[n] = pair[1];
     if (!(l[n] >= LEAST_UM && l[n] <= MOST_UM))
-        rc = record_file_reject(file, "a wavelength of .2 to 50 um");
+        rc = record_file_reject(file, "a wavelength of 0.2 to 50 um");
     else if (pair[1] < 0.0)
         rc = record_file_reject(file, "a response of 0 or more");
     else if ((n > 0 && l[n] == l[n - 1]) || (n > 1 && (l[n] > l[n - 1]) != (l[1] > l[0])))

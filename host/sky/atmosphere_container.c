@@ -120,8 +120,8 @@ static status take_number(const number_key *key, double value, const char *path)
     status rc = STATUS_OK;
 
     NEED(value >= key->low && value <= key->high && (key->number || value == floor(value)),
-         STATUS_FORMAT, "%s: %s is %g, expected a %snumber from %g to %g", path, key->name, value,
-         key->number ? "" : "whole ", key->low, key->high);
+         STATUS_FORMAT, "%s: %s: found %g, expected a %snumber from %g to %g", path, key->name,
+         value, key->number ? "" : "whole ", key->low, key->high);
     if (key->number)
         *key->number = value;
     else
@@ -207,7 +207,7 @@ static status read_block(const block *b, int number, contents *file, const char 
         float value;
         memcpy(&value, file->next, sizeof value);
         NEED((double)value >= b->low && (double)value <= b->high, STATUS_FORMAT,
-             "%s: value %zu of array %d is %g, expected %g to %g", path, i + 1, number + 1,
+             "%s: value %zu of array %d: found %g, expected %g to %g", path, i + 1, number + 1,
              (double)value, b->low, b->high);
         (*b->at)[i] = (double)value;
     }
@@ -225,17 +225,17 @@ static status set_grids(atmosphere *a, const char *path)
     NEED(a->wavenumber_min_cm1 >= 100.0 && a->wavenumber_max_cm1 <= 50000.0 &&
              fabs(a->wavenumber_max_cm1 - a->wavenumber_min_cm1 -
                   (a->point_count - 1) * a->wavenumber_step_cm1) < .01,
-         STATUS_FORMAT, "%s: wavenumber_min_cm1, _max_cm1, _step_cm1 and point_count do not fit",
+         STATUS_FORMAT, "%s: wavenumber_min_cm1, _max_cm1, _step_cm1 and point_count do not agree",
          path);
     NEED(a->path_zenith_first_deg >= 0.0 && a->path_zenith_step_deg > 0.0 && last <= 90.0,
-         STATUS_FORMAT, "%s: the path's zenith angles leave 0 to 90", path);
+         STATUS_FORMAT, "%s: the path's zenith angles are not within 0 to 90", path);
     NEED(a->path_zenith_meaningful_deg >= a->path_zenith_first_deg, STATUS_FORMAT,
-         "%s: path_zenith_meaningful_deg is %g, expected it from path_zenith_first_deg, %g", path,
-         a->path_zenith_meaningful_deg, a->path_zenith_first_deg);
+         "%s: path_zenith_meaningful_deg: found %g, expected at least path_zenith_first_deg, %g",
+         path, a->path_zenith_meaningful_deg, a->path_zenith_first_deg);
     NEED(a->zenith_count > 1 && fabs((a->zenith_count - 1) * a->zenith_step_deg - 90.0) < 1e-3 &&
              (a->azimuth_count == 1 ||
               fabs((a->azimuth_count - 1) * a->azimuth_step_deg - 360.0) < 1e-3),
-         STATUS_FORMAT, "%s: the sky's angles do not fill 0 to 90 and 0 to 360", path);
+         STATUS_FORMAT, "%s: the sky's angles do not cover 0 to 90 and 0 to 360", path);
     a->wavelength_min_um = 1e4 / a->wavenumber_max_cm1;
     a->wavelength_max_um = 1e4 / a->wavenumber_min_cm1;
     a->wavelength_um = malloc(n * sizeof(double));
@@ -256,15 +256,16 @@ static status check_targets(const atmosphere *a, const char *path)
     const int most = (int)AIR_STEPS - 2, last = a->target_count - 1;
 
     NEED(a->target_count <= most && a->range_count <= most, STATUS_FORMAT,
-         "%s: target_count is %d and range_count %d, expected %d or fewer", path, a->target_count,
+         "%s: found target_count %d and range_count %d, expected at most %d", path, a->target_count,
          a->range_count, most);
     NEED(last < 0 || (a->target_altitude_m[0] > a->level_altitude_m[0] &&
                       a->target_altitude_m[last] < a->sensor_altitude_m),
-         STATUS_FORMAT, "%s: target_altitude_m is %g to %g m, expected between ground and sensor",
-         path, last < 0 ? 0.0 : a->target_altitude_m[0],
-         last < 0 ? 0.0 : a->target_altitude_m[last]);
+         STATUS_FORMAT,
+         "%s: target_altitude_m: found %g to %g m, expected between ground and sensor", path,
+         last < 0 ? 0.0 : a->target_altitude_m[0], last < 0 ? 0.0 : a->target_altitude_m[last]);
     NEED(a->range_count == 0 || a->range_m[0] > 0.0, STATUS_FORMAT,
-         "%s: range_m begins at %g, expected above 0", path, a->range_count ? a->range_m[0] : 0.0);
+         "%s: range_m: found %g first, expected above 0", path,
+         a->range_count ? a->range_m[0] : 0.0);
 out:
     return rc;
 }
@@ -273,7 +274,8 @@ static status check_rises(const double *values, int count, const char *name, con
 {
     for (int i = 1; i < count; i++)
         if (values[i] <= values[i - 1])
-            return status_set(STATUS_FORMAT, "%s: value %d of %s does not rise", path, i + 1, name);
+            return status_set(STATUS_FORMAT, "%s: value %d of %s: expected above the one before",
+                              path, i + 1, name);
     return STATUS_OK;
 }
 

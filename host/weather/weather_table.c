@@ -101,7 +101,8 @@ static status add_field(layout *l, const record_file *file, const char *field)
     if (sscanf(field, " %63[a-z_] [%63[^]]] %n", name, unit, &end) < 2 || field[end])
         TRY(record_file_reject(file, "columns as name [unit], not '%s'", field));
     const int column = find_column(name);
-    if (column < 0) TRY(record_file_reject(file, "no column '%s': see docs/file-formats.md", name));
+    if (column < 0)
+        TRY(record_file_reject(file, "known columns, not '%s': see docs/file-formats.md", name));
     if (l->unit[column]) TRY(record_file_reject(file, "one column '%s', not two", name));
     l->unit[column] = find_unit(column, unit);
     if (!l->unit[column])

@@ -136,8 +136,8 @@ sample_step_cm1 = 500.0
 
 
 @pytest.mark.parametrize("deck, expected", [
-    (THERMAL + card_5(2) + THERMAL + card_5(0), "chain.cdk:5: '2' stands there, expected card 5 with IRPT 0, 1, 3 or 4"),
-    (HAZE + card_5(3) + STEEPER + card_5(0), "chain.cdk:7: '3' stands there, expected card 5 with IRPT 0, 1 or 4"),
+    (THERMAL + card_5(2) + THERMAL + card_5(0), "chain.cdk:5: found '2', expected card 5 with IRPT 0, 1, 3 or 4"),
+    (HAZE + card_5(3) + STEEPER + card_5(0), "chain.cdk:7: found '3', expected card 5 with IRPT 0, 1 or 4"),
     (THERMAL + card_5(3) + STEEPER.replace("30.000", "230.00") + card_5(0), "chain.cdk:6: "),
     (THERMAL + card_5(0) + THERMAL + card_5(0), "chain.cdk:6: "),
     (OWN[: OWN.index("    50.000")], "chain.cdk:6: the file ends, expected cards 2C1 to 2C3"),

@@ -65,12 +65,12 @@ def test_what_was_imported_can_be_shown(atmosphere, folder):
 
 
 @pytest.mark.parametrize("file, old, new, expected", [
-    ("path_0.tp7", "PTH THRML", "SOMETHING", "no column PTH THRML"),
-    ("sun.tp7", "SOLAR", "LUNAR", "no column SOLAR"),
+    ("path_0.tp7", "PTH THRML", "SOMETHING", "expected a column PTH THRML"),
+    ("sun.tp7", "SOLAR", "LUNAR", "expected a column SOLAR"),
     ("sky.tp7", "  FREQ", "  WAVELENGTH", "a head that starts with FREQ"),
     ("sky.tp7", " 850.00", " 851.00", "rise evenly"),
     ("sky.tp7", "1000.00", "", "columns of numbers"),
-    ("manifest.toml", '"path_0.tp7", ', "", "path: holds 1, expected 2"),
+    ("manifest.toml", '"path_0.tp7", ', "", "path: found 1, expected 2"),
     ("manifest.toml", "sensor_altitude_m", "sensor_height_m", "sensor_altitude_m: missing"),
     ("manifest.toml", "south.tp7", "west.tp7", "west.tp7"),
 ])

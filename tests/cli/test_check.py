@@ -354,7 +354,7 @@ def test_control_characters_of_files_reach_no_terminal(program, folder):
 
     done = check(program, folder, GOOD.replace("some.mat", "bad.mat"))
 
-    assert done.returncode == 1 and "bad.mat:6: '?]0;owned??[2J'" in done.stderr
+    assert done.returncode == 1 and "bad.mat:6: found '?]0;owned??[2J'" in done.stderr
     assert not any(c in done.stderr for c in "\x1b\x07\r")
 
 

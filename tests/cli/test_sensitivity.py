@@ -147,14 +147,14 @@ def test_objects_without_their_header_are_refused(program, june, tmp_path):
 
     done = study(program, june, "--objects", tmp_path / "o.csv")
 
-    assert "o.csv:1: 'Asphalt,2.4,0,0,0' stands there, expected the header" in done.stderr
+    assert "o.csv:1: found 'Asphalt,2.4,0,0,0', expected the header" in done.stderr
 
 
 @pytest.mark.parametrize("options, text", [
     (["--thickness-cm", "2", "--runs", "0"], "--runs: found '0'"),
     (["--thickness-cm", "2", "--seed", "1.5"], "--seed: found '1.5'"),
     ([], "needs --thickness-cm"),
-    (["--objects", "x.csv", "--slope", "3"], "--objects says what --slope says"),
+    (["--objects", "x.csv", "--slope", "3"], "--objects and --slope exclude each other"),
 ])
 def test_wrong_options_of_a_study_exit_2(program, june, options, text):
     done = study(program, june, *options)

@@ -182,7 +182,7 @@ def test_a_material_that_is_not_in_the_library_is_named(materials):
     done = of_row(materials, "Asphalt", material="asphalt")
 
     assert done.returncode == 1
-    assert "d1.mat: has no material 'asphalt' (did you mean 'Asphalt'?)" in done.stderr
+    assert "d1.mat: unknown material 'asphalt' (did you mean 'Asphalt'?)" in done.stderr
 
 
 def test_a_broken_history_is_refused_at_its_line(materials, tmp_path):

@@ -70,7 +70,7 @@ def test_the_command_line_takes_96_times(program, tmp_path, option):
 
     done = program.run("render", path, "-o", tmp_path / "day", "--planes", "none-such", *option)
 
-    assert done.returncode == 1 and "no plane 'none-such'" in done.stderr
+    assert done.returncode == 1 and "unknown plane 'none-such'" in done.stderr
 
 
 def test_more_than_96_times_are_refused_with_their_number(program, tmp_path):

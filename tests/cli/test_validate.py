@@ -55,7 +55,7 @@ def test_rows_are_written_on_demand(program, tmp_path):
 
 
 @pytest.mark.parametrize("header, row, message", [
-    ("time [h],heat [C]", "0,1", "no column 'heat'"),
+    ("time [h],heat [C]", "0,1", "known columns, not 'heat'"),
     ("time [min]", "0", "another unit of time, as [h], not [min]"),
     ("time [h],wind", "0,1", "columns as name [unit], not 'wind'"),
     ("time [h],time [h]", "0,1", "one column 'time', not two"),

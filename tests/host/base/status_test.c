@@ -133,9 +133,9 @@ static void more_than_fits_is_cut(void **state)
 static void what_a_terminal_would_act_on_is_not_repeated(void **state)
 {
     (void)state;
-    status_set(STATUS_FORMAT, "a.wth:1: '%s' stands there", "\x1b[2Jlate\r");
+    status_set(STATUS_FORMAT, "a.wth:1: found '%s'", "\x1b[2Jlate\r");
     status_warn("%s", "\x1b]0;title\x07");
-    assert_string_equal(status_message(), "a.wth:1: '?[2Jlate?' stands there");
+    assert_string_equal(status_message(), "a.wth:1: found '?[2Jlate?'");
     assert_string_equal(status_warnings(), "?]0;title?\n");
 }
 

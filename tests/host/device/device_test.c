@@ -68,7 +68,7 @@ static void an_index_past_the_last_names_those_there_are(void **state)
 
     (void)state;
     assert_int_equal(device_open(&none, 1000), STATUS_ARGUMENT);
-    assert_non_null(strstr(status_message(), "device 1000: there are devices 0 to "));
+    assert_non_null(strstr(status_message(), "device 1000: unknown, expected 0 to "));
     assert_null(none);
 }
 

@@ -39,7 +39,7 @@ static void carriage_returns_do_not_count_as_lines(void **state)
     assert_int_equal(record_file_numbers(file, 1, value, "a number"), STATUS_OK);
     assert_int_equal(record_file_numbers(file, 1, value, "a number"), STATUS_OK);
     assert_refused(record_file_numbers(file, 1, value, "a number"), 3,
-                   "'x' stands there, expected a number");
+                   "found 'x', expected a number");
     record_file_free(file);
 }
 
@@ -64,7 +64,7 @@ static void what_stands_behind_the_end_is_refused(void **state)
 
     record_file_numbers(file, 1, value, "a number");
     assert_false(record_file_at_end(file));
-    assert_refused(record_file_finish(file), 3, "'surplus' stands there, expected the end");
+    assert_refused(record_file_finish(file), 3, "found 'surplus', expected the end");
     record_file_free(file);
 }
 

@@ -59,9 +59,9 @@ static void a_name_or_code_that_came_before_is_refused_at_its_second_line(void *
 
     (void)state;
     assert_refused(material_library_read(&library, text_file_with(printed, "water", "cloud")), 24,
-                   "a name that no material before has");
+                   "a name that no earlier material has");
     assert_refused(material_library_read(&library, text_file_with(printed, "water\n2", "water\n0")),
-                   25, "a code that no material before has");
+                   25, "a code that no earlier material has");
 }
 
 static void a_wrong_record_is_refused_at_its_line(void **state)

@@ -243,8 +243,7 @@ static void a_worker_without_a_thread_is_done_without(void **state)
         assert_every_pixel_once();
         assert_int_equal(fakes[2].tiles, 0);
         assert_false(failed[0] || failed[1] || failed[2]);
-        assert_non_null(
-            strstr(status_warnings(), "third is done without: no thread can be started\n"));
+        assert_non_null(strstr(status_warnings(), "third is not used: no thread can be started\n"));
     }
 }
 

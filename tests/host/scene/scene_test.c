@@ -336,8 +336,10 @@ static void a_material_that_nobody_knows_is_refused(void **state)
 static void one_name_twice_is_refused(void **state)
 {
     (void)state;
-    assert_refused(CHANGED("name = \"grass\"", "name = \"wall\""), 17, "two materials \"wall\"");
-    assert_refused(CHANGED("name = \"mwir\"", "name = \"lwir\""), 28, "two bands \"lwir\"");
+    assert_refused(CHANGED("name = \"grass\"", "name = \"wall\""), 17,
+                   "two materials are named \"wall\"");
+    assert_refused(CHANGED("name = \"mwir\"", "name = \"lwir\""), 28,
+                   "two bands are named \"lwir\"");
 }
 
 /* What follows a render from the names: files, headers, channels. */
@@ -382,7 +384,7 @@ static void only_the_named_bands_are_kept(void **state)
     scene *s = read_scene(write_scene(NULL));
 
     assert_int_equal(scene_keep_bands(s, "mwir,none"), STATUS_ARGUMENT);
-    assert_non_null(strstr(status_message(), "no band 'none'"));
+    assert_non_null(strstr(status_message(), "unknown band 'none'"));
     assert_int_equal(scene_keep_bands(s, "mwir"), STATUS_OK);
     assert_int_equal(s->band_count, 1);
     assert_string_equal(s->bands[0].name, "mwir");
@@ -488,7 +490,7 @@ static void names_that_a_terminal_would_act_on_are_refused(void **state)
 static void a_time_that_the_sun_is_not_known_for_is_told_at_its_line(void **state)
 {
     (void)state;
-    assert_refused(CHANGED("1992-06-21", "1599-06-21"), 5, "expected one from 1600 to 9999");
+    assert_refused(CHANGED("1992-06-21", "1599-06-21"), 5, "expected a time from 1600 to 9999");
 }
 
 static void a_failure_after_a_refused_scene_stands_alone(void **state)

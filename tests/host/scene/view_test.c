@@ -75,9 +75,9 @@ static void angles_that_disagree_are_a_warning(void **state)
 
     (void)state;
     assert_int_equal(view_read(&v, text_file_with(printed, "45.0 -45.0", "45.0 -44.8")), STATUS_OK);
-    assert_non_null(strstr(status_warnings(), "file:3: elevation 45 and azimuth -44.8"));
+    assert_non_null(strstr(status_warnings(), "file:3: found elevation 45 and azimuth -44.8"));
     assert_int_equal(view_read(&v, text_file_with(printed, "45.0 -45.0", "45.2 315.0")), STATUS_OK);
-    assert_non_null(strstr(status_warnings(), "file:3: elevation 45.2 and azimuth 315"));
+    assert_non_null(strstr(status_warnings(), "file:3: found elevation 45.2 and azimuth 315"));
 }
 
 static void an_azimuth_may_be_a_full_turn_more(void **state)
