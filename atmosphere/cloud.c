@@ -157,7 +157,7 @@ status cloud_compute(cloud **out, const cloud_model *model)
     paths *p = malloc(sizeof *p);
     cloud *c = calloc(1, sizeof *c);
 
-    NEED(p && c, STATUS_MEMORY, "the spectra of a cloud");
+    NEED(p && c, STATUS_MEMORY, "no memory for the spectra of a cloud");
     TRY(run_paths(p, model));
     TRY(check(p, model));
     set_extinction(c, p);

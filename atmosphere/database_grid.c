@@ -46,7 +46,7 @@ static status make_room(atmosphere *a, size_t levels)
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         if (!arrays[i].size) continue;
         *arrays[i].at = calloc(arrays[i].size, sizeof **arrays[i].at);
-        if (!*arrays[i].at) return status_set(STATUS_MEMORY, "a radiance database");
+        if (!*arrays[i].at) return status_set(STATUS_MEMORY, "no memory for a radiance database");
     }
     return STATUS_OK;
 }
@@ -56,7 +56,7 @@ status database_grid_make(atmosphere **out, const database_grid *grid)
     status rc = STATUS_OK;
     atmosphere *a = calloc(1, sizeof *a);
 
-    NEED(a, STATUS_MEMORY, "a radiance database");
+    NEED(a, STATUS_MEMORY, "no memory for a radiance database");
     a->sensor_altitude_m = grid->sensor_altitude_m;
     a->wavenumber_min_cm1 = grid->wavenumber_min_cm1;
     a->wavenumber_max_cm1 = grid->wavenumber_max_cm1;
@@ -97,7 +97,7 @@ status database_grid_integrate(atmosphere *a, bool thesis)
     status rc = STATUS_OK;
     double *weight = malloc((size_t)a->zenith_count * sizeof *weight);
 
-    NEED(weight, STATUS_MEMORY, "the integrated sky");
+    NEED(weight, STATUS_MEMORY, "no memory for the integrated sky");
     sky_weight(a->zenith_count, thesis, weight);
     for (int i = 0; i < a->point_count; i++) {
         a->sky_emitted[i] = sky_weight_integrate(a->sky_emitted_direction + i, a->point_count,

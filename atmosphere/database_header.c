@@ -124,14 +124,14 @@ status database_header(char **out, const database_plan *g, const run_list *r)
     size_t length;
     FILE *stream = open_memstream(&text, &length);
 
-    NEED(stream, STATUS_MEMORY, "the header of a radiance database");
+    NEED(stream, STATUS_MEMORY, "no memory for the header of a radiance database");
     write_site(stream, g, r);
     write_plan(stream, &g->plan);
     fputs(quantities, stream);
     write_method(stream, &g->plan);
     fputs("#\n" LOWTRAN_SOURCE_HEADER, stream);
     write_decks(stream, r);
-    NEED(fclose(stream) == 0, STATUS_MEMORY, "the header of a radiance database");
+    NEED(fclose(stream) == 0, STATUS_MEMORY, "no memory for the header of a radiance database");
     *out = text;
 out:
     return rc;

@@ -20,8 +20,10 @@ static void read_name(scene_reader *reader)
     scene_table t = scene_table_open(reader, reader->root, "scene");
     const char *name = "";
 
-    scene_table_string(&t, "name", &name);
+    scene_table_name(&t, "name", "", "a name", &name);
     reader->s->name = strdup(name);
+    if (!reader->s->name)
+        scene_took(reader, status_set(STATUS_MEMORY, "no memory for the scene's name"));
 }
 
 static void read_parts(database_plan *g, scene_reader *reader)
@@ -69,7 +71,7 @@ status database_plan_read(database_plan **out, const char *path)
     reader.root = toml_file_root(file);
     read_parts(g, &reader);
     if (reader.failure_count > 0) {
-        rc = STATUS_FORMAT;
+        rc = reader.ending ? reader.ending : STATUS_FORMAT;
         goto out;
     }
     *out = g;

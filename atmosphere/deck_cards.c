@@ -2,6 +2,8 @@
 
 #include "sky/card_deck.h"
 
+#include <limits.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -48,6 +50,12 @@ out:
     return rc;
 }
 
+/* Whether a number is a whole one that fits into the columns of a field. */
+static bool is_field(double value)
+{
+    return value > -1e4 && value < 1e5 && value == floor(value);
+}
+
 /* Reads the first fields of the last line, whole numbers in five columns each; by their place among
  * `count` numbers where the line holds that many. */
 static status read_fields(const taker *t, const char *card, int count, int limit, int *out)
@@ -62,9 +70,11 @@ static status read_fields(const taker *t, const char *card, int count, int limit
         const size_t column = (size_t)i * COLUMNS;
         snprintf(field, sizeof field, "%s", column < length ? t->line + column : "");
         const int found = is_free ? 1 : record_numbers(field, 1, &values[i]);
-        if (found < 0 || found > 1) {
-            rc = record_file_reject(t->file, "%s: %d numbers, or numbers in the manual's columns",
-                                    card, count);
+        if (found < 0 || found > 1 || (found && !is_field(values[i]))) {
+            rc = record_file_reject(
+                t->file,
+                "%s: %d numbers, the first %d of them whole, or numbers in the manual's columns",
+                card, count, limit);
             goto out;
         }
         out[i] = found ? (int)values[i] : 0;
@@ -163,7 +173,8 @@ static status take_end(taker *t)
     char *end;
 
     TRY(record_file_text(t->file, &text, "card 5"));
-    t->run->irpt = (int)strtol(text, &end, 10);
+    const long irpt = strtol(text, &end, 10);
+    t->run->irpt = irpt < INT_MIN || irpt > INT_MAX ? INT_MAX : (int)irpt;
     if (*end || end == text) {
         rc = record_file_reject(t->file, "card 5: one number");
         goto out;

@@ -22,7 +22,7 @@ status deck_text(char **out, const card_deck *deck, const char *profile_cards,
     TRY(card_deck_text(&plain, deck, DECK_END));
     const size_t size = strlen(plain) + strlen(profile_cards) + strlen(phase_cards) + 1;
     text = malloc(size);
-    NEED(text, STATUS_MEMORY, "the text of a card deck");
+    NEED(text, STATUS_MEMORY, "no memory for the text of a card deck");
     const char *profile = skip_lines(plain, LINES_TO_PROFILE);
     const char *phase = *phase_cards ? skip_lines(profile, LINES_TO_PHASE) : profile;
     snprintf(text, size, "%.*s%s%.*s%s%s", (int)(profile - plain), plain, profile_cards,

@@ -85,7 +85,7 @@ static void read_grid(scene_table *t, database_grid *grid)
     scene_table_number(&sky, "azimuth", 1.0, 180.0, &grid->sky_azimuth_step_deg);
     scene_table_close(&sky);
     if (!divides(grid->sky_zenith_step_deg, 90.0) || !divides(grid->sky_azimuth_step_deg, 360.0) ||
-        zenith[1] < zenith[0] || !divides(zenith[2], zenith[1] - zenith[0]))
+        zenith[1] < zenith[0] || zenith[2] < .01 || !divides(zenith[2], zenith[1] - zenith[0]))
         scene_fail(t->reader, t->node,
                    "path_zenith_deg, sky_step_deg: expected steps that divide "
                    "their ranges");
@@ -218,7 +218,7 @@ static status take_all(atmosphere **out, manifest *m)
     TRY(database_grid_integrate(a, false));
     a->header = strdup("# Radiance database imported from MODTRAN's tape7 files by "
                        "radsig-atmosphere " RADSIG_VERSION ".\n");
-    NEED(a->header, STATUS_MEMORY, "the header of a radiance database");
+    NEED(a->header, STATUS_MEMORY, "no memory for the header of a radiance database");
     *out = a;
     a = NULL;
 out:

@@ -82,7 +82,7 @@ static status find_same(size_t **out, const char *const *decks, size_t count)
     status rc = STATUS_OK;
     size_t *same = malloc(count * sizeof *same);
 
-    NEED(same, STATUS_MEMORY, "%zu decks", count);
+    NEED(same, STATUS_MEMORY, "no memory for %zu decks", count);
     for (size_t i = 0; i < count; i++)
         for (same[i] = 0; same[i] < i && strcmp(decks[same[i]], decks[i]) != 0;) same[i]++;
     *out = same;

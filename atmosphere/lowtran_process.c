@@ -45,7 +45,7 @@ static status write_file(const char *folder, const char *name, const char *text)
     FILE *file = NULL;
     char *path = join(folder, name);
 
-    NEED(path, STATUS_MEMORY, "the name of %s", name);
+    NEED(path, STATUS_MEMORY, "no memory for the name of %s", name);
     file = fopen(path, "w");
     NEED(file && fputs(text, file) >= 0, STATUS_FILE, "%s: %s", path, strerror(errno));
 out:
@@ -62,12 +62,12 @@ status lowtran_process_open(lowtran_process **out, const char *folder, int numbe
     char *inner = NULL;
     lowtran_process *p = calloc(1, sizeof *p);
 
-    NEED(p, STATUS_MEMORY, "a LOWTRAN process");
+    NEED(p, STATUS_MEMORY, "no memory for a LOWTRAN process");
     snprintf(name, sizeof name, "%d", number);
     p->folder = join(folder, name);
-    NEED(p->folder, STATUS_MEMORY, "a LOWTRAN process");
+    NEED(p->folder, STATUS_MEMORY, "no memory for a LOWTRAN process");
     inner = join(p->folder, "out");
-    NEED(inner, STATUS_MEMORY, "a LOWTRAN process");
+    NEED(inner, STATUS_MEMORY, "no memory for a LOWTRAN process");
     NEED(mkdir(p->folder, 0700) == 0 && mkdir(inner, 0700) == 0, STATUS_FILE, "%s: %s", inner,
          strerror(errno));
     *out = p;
@@ -112,7 +112,7 @@ static status spawn(lowtran_process *p)
     posix_spawn_file_actions_t actions;
 
     posix_spawn_file_actions_init(&actions);
-    NEED(said, STATUS_MEMORY, "a LOWTRAN process");
+    NEED(said, STATUS_MEMORY, "no memory for a LOWTRAN process");
     TRY(program_path(program, sizeof program));
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, said, O_WRONLY | O_TRUNC, 0);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);

@@ -35,9 +35,9 @@ status model_sonde_make(sonde **out, int model, double top_m)
     sonde *s = calloc(1, sizeof *s);
     bool is_below = true;
 
-    NEED(s, STATUS_MEMORY, "a model atmosphere");
+    NEED(s, STATUS_MEMORY, "no memory for a model atmosphere");
     s->level = malloc(LEVELS * sizeof *s->level);
-    NEED(s->level, STATUS_MEMORY, "a model atmosphere");
+    NEED(s->level, STATUS_MEMORY, "no memory for a model atmosphere");
     for (int i = 0; i < LEVELS && is_below; i++) {
         sonde_level *level = &s->level[s->count++];
         level->altitude_m = 1000.0 * (double)mlatm_.altitude_km[i];

@@ -86,12 +86,12 @@ static status print_cards(char **out, const phase_table *t)
     size_t length;
     FILE *stream = open_memstream(&text, &length);
 
-    NEED(stream, STATUS_MEMORY, "phase functions");
+    NEED(stream, STATUS_MEMORY, "no memory for phase functions");
     if (t->count) fprintf(stream, "%5d\n", t->count);
     for (int i = 0; i < t->count; i++)
         for (int k = 0; k < COLUMNS; k++)
             fprintf(stream, "%10.3E%s", t->row[i][k], k + 1 < COLUMNS ? "" : "\n");
-    NEED(fclose(stream) == 0, STATUS_MEMORY, "phase functions");
+    NEED(fclose(stream) == 0, STATUS_MEMORY, "no memory for phase functions");
     *out = text;
 out:
     return rc;

@@ -106,7 +106,7 @@ static status add_task(run_list *r, task t, int piece)
     TRY(write_deck(&r->decks[r->count], r, &t));
     name_task(name, r, &t, piece);
     r->names[r->count] = strdup(name);
-    NEED(r->names[r->count], STATUS_MEMORY, "a deck's name");
+    NEED(r->names[r->count], STATUS_MEMORY, "no memory for a deck's name");
     r->count++;
 out:
     return rc;
@@ -161,7 +161,7 @@ static status add_pieces(run_list *r)
     r->tasks = calloc(most, sizeof *r->tasks);
     r->decks = calloc(most + 1, sizeof *r->decks);
     r->names = calloc(most, sizeof *r->names);
-    NEED(r->tasks && r->decks && r->names, STATUS_MEMORY, "%zu decks", most);
+    NEED(r->tasks && r->decks && r->names, STATUS_MEMORY, "no memory for %zu decks", most);
     for (int i = 1; i <= a->point_count; i++) {
         if (i < a->point_count && albedo_at(&r->plan, a->wavelength_um[i]) ==
                                       albedo_at(&r->plan, a->wavelength_um[first]))
@@ -193,7 +193,7 @@ status run_list_open(run_list **out, const atmosphere_plan *plan, const site *pl
     status rc = STATUS_OK;
     run_list *r = calloc(1, sizeof *r);
 
-    NEED(r, STATUS_MEMORY, "a radiance database");
+    NEED(r, STATUS_MEMORY, "no memory for a radiance database");
     r->plan = *plan;
     r->sight = (run_sight){
         .plan = &r->plan,
@@ -205,7 +205,7 @@ status run_list_open(run_list **out, const atmosphere_plan *plan, const site *pl
     r->phase_cards = phase_cards;
     TRY(make_air(r));
     r->source = calloc((size_t)r->air->point_count, sizeof *r->source);
-    NEED(r->source, STATUS_MEMORY, "a radiance database");
+    NEED(r->source, STATUS_MEMORY, "no memory for a radiance database");
     TRY(add_pieces(r));
     *out = r;
     r = NULL;
@@ -337,7 +337,7 @@ static status take_source(run_list *r, const task *t, const lowtran_run *run)
     status rc = STATUS_OK;
     double *tau = calloc((size_t)r->air->point_count, sizeof *tau);
 
-    NEED(tau, STATUS_MEMORY, "a level path");
+    NEED(tau, STATUS_MEMORY, "no memory for a level path");
     average(r, t, run->tau, 1.0, tau);
     average(r, t, run->scattered, PER_CM2, r->source);
     for (int i = t->first; i <= t->last; i++) r->source[i] /= fmax(1.0 - tau[i], CLEAR);

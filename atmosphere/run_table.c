@@ -2,6 +2,7 @@
 
 #include "files/output_file.h"
 #include "lowtran_source.h"
+#include "sky/atmosphere.h"
 #include "sky_weight.h"
 
 #include <math.h>
@@ -28,7 +29,7 @@ enum { SPECTRA = 5, SUN = 3, PATH_TO_SPACE = 3 };
 status run_table_open(run_table **out)
 {
     *out = calloc(1, sizeof **out);
-    return *out ? STATUS_OK : status_set(STATUS_MEMORY, "a table of runs");
+    return *out ? STATUS_OK : status_set(STATUS_MEMORY, "no memory for a table of runs");
 }
 
 void run_table_free(run_table *t)
@@ -71,11 +72,11 @@ status run_table_add(void *table, size_t index, const lowtran_run *run)
     const size_t n = (size_t)run->point_count;
     row *larger = realloc(t->rows, (t->count + 1) * sizeof *larger);
 
-    NEED(larger, STATUS_MEMORY, "a table of runs");
+    NEED(larger, STATUS_MEMORY, "no memory for a table of runs");
     t->rows = larger;
     row *r = &t->rows[t->count];
     *r = (row){.run = *run, .spectra = malloc(SPECTRA * n * sizeof(float)), .index = index};
-    NEED(r->spectra, STATUS_MEMORY, "a table of runs");
+    NEED(r->spectra, STATUS_MEMORY, "no memory for a table of runs");
     t->count++;
     turn(r->spectra, run);
     r->run.wavenumber_cm1 = r->spectra;
@@ -183,9 +184,9 @@ static void write_grids(FILE *stream, const run_table *t, size_t path, size_t pa
     }
     fprintf(stream, "%f\n%f\n%f\n%f\n%f\n%f\n%d\n", sensor_km, 1e4 / (double)nu[0],
             1e4 / (double)nu[n - 1], (double)nu[n - 1], (double)nu[0],
-            n > 1 ? (double)(nu[0] - nu[1]) : 0.0, n);
+            n > 1 ? (double)(nu[0] - nu[1]) : 1.0, n);
     fprintf(stream, "%f\n%f\n%f\n%f\n%zu\n", low, high,
-            paths > 1 ? (high - low) / (double)(paths - 1) : 0.0, high, paths);
+            paths > 1 ? (high - low) / (double)(paths - 1) : 1.0, high, paths);
 }
 
 static void write_solar(FILE *stream, const run_table *t)
@@ -239,7 +240,7 @@ static status write_integral(FILE *stream, const row *sky, int zeniths, int azim
     double *weight = malloc((size_t)zeniths * sizeof *weight);
     double *values = malloc((size_t)count * 2 * sizeof *values);
 
-    NEED(weight && values, STATUS_MEMORY, "the integrated sky");
+    NEED(weight && values, STATUS_MEMORY, "no memory for the integrated sky");
     sky_weight(zeniths, true, weight);
     for (int i = 0; i < sky[0].run.point_count; i++) {
         for (int k = 0; k < count; k++) {
@@ -299,7 +300,7 @@ static status write_grid(run_table *t, const char *const *decks, const char *pat
     run_table part = {0};
     char *numbered = number_path(path, grid);
 
-    NEED(numbered, STATUS_MEMORY, "the name of %s", path);
+    NEED(numbered, STATUS_MEMORY, "no memory for the name of %s", path);
     for (part.rows = t->rows; part.rows->grid < grid;) part.rows++;
     while (part.rows + part.count < t->rows + t->count && part.rows[part.count].grid == grid)
         part.count++;
@@ -313,15 +314,34 @@ out:
     return rc;
 }
 
+/* What ends in .rad is read by radsig. */
+static status check_database(output_file *file)
+{
+    status rc = STATUS_OK;
+    const char *dot = strrchr(output_file_path(file), '.');
+    char reason[1024];
+
+    if (!dot || strcmp(dot, ".rad") != 0) return STATUS_OK;
+    rc = atmosphere_check_file(file);
+    if (rc == STATUS_OK || rc == STATUS_MEMORY) return rc;
+    snprintf(reason, sizeof reason, "%s", status_last());
+    return status_set(
+        rc,
+        "%s: the decks do not fill a radiance database; what they hold goes to a file "
+        "that does not end in .rad",
+        reason);
+}
+
 status run_table_write(run_table *t, const char *const *decks, const char *path)
 {
     status rc = STATUS_OK;
     const int grids = number_grids(t);
     output_file **files = calloc((size_t)grids, sizeof *files);
 
-    NEED(files, STATUS_MEMORY, "%d files", grids);
+    NEED(files, STATUS_MEMORY, "no memory for %d files", grids);
     qsort(t->rows, t->count, sizeof *t->rows, compare);
     for (int i = 0; i < grids; i++) TRY(write_grid(t, decks, path, i, &files[i]));
+    for (int i = 0; i < grids; i++) TRY(check_database(files[i]));
     for (int i = 0; i < grids; i++) TRY(output_file_commit(files[i]));
 out:
     for (int i = 0; files && i < grids; i++) output_file_free(files[i]);

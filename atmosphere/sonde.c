@@ -53,7 +53,7 @@ static status add_level(sonde *s, const sonde_level *level, const record_file *f
         (level->altitude_m <= last->altitude_m || level->pressure_hpa >= last->pressure_hpa))
         return record_file_reject(file, "a level above the one before, with less pressure");
     larger = realloc(s->level, (s->count + 1) * sizeof *larger);
-    if (!larger) return status_set(STATUS_MEMORY, "a radiosonde's levels");
+    if (!larger) return status_set(STATUS_MEMORY, "no memory for a radiosonde's levels");
     s->level = larger;
     s->level[s->count++] = *level;
     return STATUS_OK;

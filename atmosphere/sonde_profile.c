@@ -85,9 +85,9 @@ static status cut(sonde **out, const sonde *s, const atmosphere_plan *plan)
     sonde *c = calloc(1, sizeof *c);
     bool has_inversion = inversion <= 0.0;
 
-    NEED(c, STATUS_MEMORY, "a profile");
+    NEED(c, STATUS_MEMORY, "no memory for a profile");
     c->level = malloc((s->count + 2) * sizeof *c->level);
-    NEED(c->level, STATUS_MEMORY, "a profile");
+    NEED(c->level, STATUS_MEMORY, "no memory for a profile");
     c->level[c->count++] = sonde_at(s, ground);
     for (size_t i = 0; i < s->count; i++) {
         const double altitude = s->level[i].altitude_m;
@@ -176,7 +176,7 @@ static status print_cards(char **out, sonde *s, int model)
     FILE *stream = open_memstream(&text, &length);
     const double top_m = s->level[s->count - 1].altitude_m;
 
-    NEED(stream, STATUS_MEMORY, "a profile");
+    NEED(stream, STATUS_MEMORY, "no memory for a profile");
     while (above < MODEL_LEVELS && model_km[above] * 1000.0 < top_m + MODEL_GAP_M) above++;
     const size_t continued = MODEL_LEVELS - above;
     thin(s, PROFILE_LEVELS - continued);
@@ -188,7 +188,7 @@ static status print_cards(char **out, sonde *s, int model)
         for (int i = 0; i < OTHER_GASES + 3; i++) fprintf(stream, "%d", model);
         fputc('\n', stream);
     }
-    NEED(fclose(stream) == 0, STATUS_MEMORY, "a profile");
+    NEED(fclose(stream) == 0, STATUS_MEMORY, "no memory for a profile");
     *out = text;
 out:
     return rc;
@@ -202,7 +202,7 @@ status sonde_profile_cards(char **out, const database_plan *g)
 
     if (!plan->radiosonde && plan->inversion_altitude_m <= 0.0) {
         *out = strdup("");
-        NEED(*out, STATUS_MEMORY, "a profile");
+        NEED(*out, STATUS_MEMORY, "no memory for a profile");
         goto out;
     }
     if (plan->radiosonde)

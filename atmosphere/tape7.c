@@ -85,7 +85,7 @@ static status add_row(tape7 *t, const head *h, const double *row)
     for (int k = 0; k < WANTED; k++) {
         if (h->column[k] < 0) continue;
         double *larger = realloc(*to[k], ((size_t)t->count + 1) * sizeof *larger);
-        if (!larger) return status_set(STATUS_MEMORY, "a tape7");
+        if (!larger) return status_set(STATUS_MEMORY, "no memory for a tape7");
         *to[k] = larger;
         larger[t->count] = row[h->column[k]] * (k < 2 ? 1.0 : per_um);
     }

@@ -6,13 +6,12 @@
 
 static const char command[] = "radsig-atmosphere deck";
 
-static const char purpose[] = "Runs card decks of LOWTRAN 7 as they stand and writes a text "
-                              "radiance database as far as they\n"
-                              "fill it. A deck of several runs (IRPT 1, 3, 4) runs as a whole. "
-                              "Runs of other wavenumbers than\n"
-                              "the first go to files of their own, FILE_2.rad and so on. A deck "
-                              "for MODTRAN is taken too: its\n"
-                              "leading letter and its resolution are dropped.\n";
+static const char purpose[] =
+    "Runs card decks of LOWTRAN 7 as they stand and writes a text radiance database. Decks that\n"
+    "do not fill one are refused, unless FILE has another ending than .rad: it then holds what\n"
+    "they give, in the same layout. A deck of several runs (IRPT 1, 3, 4) runs as a whole. Runs\n"
+    "of other wavenumbers than the first go to files of their own, FILE_2.rad and so on. A deck\n"
+    "for MODTRAN is taken too: its leading letter and its resolution are dropped.\n";
 
 static status run(char **files, size_t count, const char *output)
 {

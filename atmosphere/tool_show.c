@@ -1,3 +1,4 @@
+#include "base/terminal_text.h"
 #include "database_header.h"
 #include "database_plot.h"
 #include "image/picture.h"
@@ -77,10 +78,11 @@ static void print_steps(const atmosphere *a)
 }
 
 /* All but the cards, which fill pages. */
-static void print_header(const char *header)
+static void print_header(char *header)
 {
     const char *cards = strstr(header, DATABASE_HEADER_CARDS);
 
+    terminal_text_clean(header);
     fwrite(header, 1, cards ? (size_t)(cards - header) : strlen(header), stdout);
     if (cards) puts("# The cards of all runs stand in the file.");
 }

@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/number.h"
 #include "control.h"
+#include "files/record_file.h"
 #include "meshio/input_file.h"
 #include "page.h"
 #include "saving.h"
@@ -236,14 +237,15 @@ out:
 status script_run(preview *p, const char *path)
 {
     status rc = STATUS_OK;
-    char line[LINE_SIZE], message[1024];
+    char whole[LINE_SIZE], message[1024];
     FILE *file = stdin;
     bool is_done = true;
 
     if (strcmp(path, "-"))
         NEED(!input_file_open(&file, NULL, path, INPUT_FILE_TEXT_LIMIT, message, sizeof message),
              STATUS_FILE, "%s", message);
-    for (int number = 1; !p->quits && fgets(line, sizeof line, file); number++) {
+    for (int number = 1; !p->quits && fgets(whole, sizeof whole, file); number++) {
+        char *line = whole + (number == 1 ? record_text_begin(whole) - whole : 0);
         line[strcspn(line, "\r\n")] = '\0';
         if (*line && *line != '#') TRY(do_line(p, line, &is_done));
         NEED(is_done, STATUS_FORMAT,

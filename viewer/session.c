@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "file_stamp.h"
+#include "scene/scene_limits.h"
 
 #include <errno.h>
 #include <math.h>
@@ -134,6 +135,7 @@ static status render_frame(session *s, const render_look *look, unsigned number)
     size_t plane_count = 0;
     const render_plane *planes = render_planes(s->r, &plane_count);
 
+    TRY(scene_limits_view(s->of->s, &look->camera));
     TRY(frame_create(&f, s->of, &look->camera, planes, plane_count));
     render_change_look(s->r, look);
     most = render_tile_limit(s->r) < TILE_MOST ? render_tile_limit(s->r) : TILE_MOST;

@@ -44,7 +44,8 @@ static void on_signal(int number)
 
 void interrupt_catch_signals(void)
 {
-    const struct sigaction action = {.sa_handler = on_signal};
+    /* Libraries take a call that was broken off for a failure: calls go on. */
+    const struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART};
     struct sigaction present;
 
     interrupt_obey(&signalled);

@@ -1,5 +1,7 @@
 #include "base/status.h"
 
+#include "base/terminal_text.h"
+
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -20,12 +22,18 @@ status status_set(status code, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(message + kept_length, sizeof message - kept_length, format, arguments);
     va_end(arguments);
+    terminal_text_clean(message + kept_length);
     return code;
 }
 
 const char *status_message(void)
 {
     return message;
+}
+
+const char *status_last(void)
+{
+    return message + kept_length;
 }
 
 status status_keep(status code)
@@ -37,6 +45,13 @@ status status_keep(status code)
         message[length + 1] = '\0';
         kept_length = length + 1;
     }
+    return code;
+}
+
+status status_finish(status code)
+{
+    if (kept_length > 0 && message[kept_length] == '\0') message[kept_length - 1] = '\0';
+    kept_length = 0;
     return code;
 }
 
@@ -56,6 +71,7 @@ void status_warn(const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text + length, sizeof warnings[0] - length - 1, format, arguments);
     va_end(arguments);
+    terminal_text_clean(text + length);
     strcat(text, "\n");
 }
 

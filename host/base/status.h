@@ -12,15 +12,22 @@ typedef enum status {
     STATUS_INTERRUPTED
 } status;
 
-/* Stores the message of this thread and returns the code. */
+/* Stores the message of this thread and returns the code. What a terminal would act on is replaced, in
+ * messages and warnings: they repeat texts of files (terminal_text.h). */
 __attribute__((format(printf, 2, 3))) status status_set(status code, const char *format, ...);
 
 /* Text of the last failure of this thread; several failures stand on lines of their own. */
 const char *status_message(void);
 
+/* The last of them alone; "" where none came since one was kept. */
+const char *status_last(void);
+
 /* Keeps the present message: the next failure of this thread is added below it. Returns code.
  * For readers that go on after an error to find the next one. */
 status status_keep(status code);
+
+/* Ends the keeping: what was kept is one message, which the next failure replaces. Returns code. */
+status status_finish(status code);
 
 /* Forgets the message and what was kept. */
 void status_clear(void);

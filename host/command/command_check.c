@@ -1,8 +1,11 @@
+#include "base/terminal_text.h"
 #include "command/command.h"
 #include "command/command_scene.h"
 
 #include <math.h>
 #include <stdio.h>
+
+enum { NAME_SIZE = 4096 };
 
 static const char command[] = "radsig check";
 
@@ -12,6 +15,7 @@ static const char purpose[] =
 
 static void print_place(const scene *s)
 {
+    char name[NAME_SIZE];
     char time[SITE_TIME_SIZE];
 
     site_format_time(s->place.time_s, s->place.utc_offset_min, time);
@@ -23,7 +27,8 @@ static void print_place(const scene *s)
         printf("times       %zu, the last %s\n", s->time_count, time);
     }
     if (s->ground_material != RECORD_NONE)
-        printf("ground      %s, z = %.3f m, endless\n", s->materials[s->ground_material].name,
+        printf("ground      %s, z = %.3f m, endless\n",
+               terminal_text_copy(name, sizeof name, s->materials[s->ground_material].name),
                s->ground_z_m);
 }
 
@@ -79,6 +84,8 @@ static void print_geometry(const scene *s)
 
 static void print_materials(const scene *s)
 {
+    char name[NAME_SIZE];
+
     for (uint32_t i = 0; i < s->material_count; i++) {
         const scene_material *m = &s->materials[i];
         uint32_t facets = 0;
@@ -86,8 +93,8 @@ static void print_materials(const scene *s)
             facets += s->material_of[s->shape->material[f]] == i;
         printf("material    %3u %-24s %7u facets, solar absorptance %.2f, thermal emissivity %.2f, "
                "%s\n",
-               m->record.number, m->name, facets, (double)m->record.solar_absorptance,
-               (double)m->record.thermal_emissivity,
+               m->record.number, terminal_text_copy(name, sizeof name, m->name), facets,
+               (double)m->record.solar_absorptance, (double)m->record.thermal_emissivity,
                m->medium != RECORD_NONE          ? "transmissive"
                : m->record.specular_share > 0.0f ? "specular"
                                                  : "diffuse");
@@ -132,13 +139,16 @@ static void print_sensor(const scene *s)
 
 static void print_summary(const scene *s)
 {
+    char name[NAME_SIZE];
+
     print_place(s);
     print_weather(s);
     print_atmosphere(s);
     print_geometry(s);
     print_materials(s);
     print_sensor(s);
-    for (size_t i = 0; i < s->input_count; i++) printf("input       %s\n", s->inputs[i].name);
+    for (size_t i = 0; i < s->input_count; i++)
+        printf("input       %s\n", terminal_text_copy(name, sizeof name, s->inputs[i].name));
 }
 
 int command_check(int argc, char **argv)

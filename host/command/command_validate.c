@@ -6,6 +6,7 @@
 #include "image/picture.h"
 #include "kernels/constants.h"
 #include "thermal/thermal.h"
+#include "thermal/value_check.h"
 #include "weather/weather_table.h"
 
 #include <math.h>
@@ -40,8 +41,10 @@ static status read_resistance(const option *o, const char *text)
     layered_matter *l = o->out;
     double value[2];
 
-    NEED(number_read_list(text, 2, value) && value[0] >= 0.0 && value[1] >= 0.0, STATUS_ARGUMENT,
-         "found '%s', expected DAY,NIGHT, each at least 0", text);
+    NEED(number_read_list(text, 2, value) && fmin(value[0], value[1]) >= 0.0 &&
+             fmax(value[0], value[1]) <= LAYERED_RESISTANCE_MOST_S_M,
+         STATUS_ARGUMENT, "found '%s', expected DAY,NIGHT, each from 0 to %g", text,
+         LAYERED_RESISTANCE_MOST_S_M);
     l->resistance_day_s_m = value[0];
     l->resistance_night_s_m = value[1];
 out:
@@ -129,9 +132,15 @@ static status set_measured(weather_table *t, const validation *v)
          "%s: has neither surface_temperature nor longwave_up and longwave_down", v->table);
     t->surface_k = malloc(w->count * sizeof *t->surface_k);
     NEED(t->surface_k, STATUS_MEMORY, "no memory for %zu temperatures", w->count);
-    for (size_t i = 0; i < w->count; i++)
+    for (size_t i = 0; i < w->count; i++) {
         t->surface_k[i] = radiating_k(t->longwave_up_w_m2[i], w->record[i].longwave_w_m2,
                                       (double)v->material.thermal_emissivity);
+        NEED(value_check_kelvin((float)t->surface_k[i]), STATUS_FORMAT,
+             "%s: record %zu: longwave_up of %g and longwave_down of %g W/m2 make a surface of %g "
+             "K, expected %s",
+             v->table, i + 1, t->longwave_up_w_m2[i], w->record[i].longwave_w_m2, t->surface_k[i],
+             VALUE_CHECK_RANGE);
+    }
 out:
     return rc;
 }

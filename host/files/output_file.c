@@ -2,6 +2,8 @@
 
 #include "files/output_file.h"
 
+#include "base/interrupt.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
@@ -9,6 +11,7 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 /* Files are published in this order. */
@@ -16,6 +19,8 @@ enum { RANK_DATA, RANK_HEADER, RANK_REPORT, RANKS };
 
 /* Where the old file waits on file systems that exchange none. */
 static const char aside[] = ".radsig-old";
+
+enum { PORTION = 1 << 24 }; /* bytes */
 
 struct output_file {
     char *path;
@@ -124,6 +129,27 @@ out:
     return rc;
 }
 
+/* Has the disk store a file, so much at a time that an interrupt need not wait for all of it. */
+static status store_data(const output_file *file, int descriptor)
+{
+    status rc = STATUS_OK;
+    const off_t end = lseek(descriptor, 0, SEEK_END);
+
+    for (off_t at = 0; at < end; at += PORTION) {
+        TRY(interrupt_check());
+        /* Where the system cannot do it, fsync does; an error is told once, here or there. */
+        NEED(sync_file_range(descriptor, at, PORTION,
+                             SYNC_FILE_RANGE_WAIT_BEFORE | SYNC_FILE_RANGE_WRITE |
+                                 SYNC_FILE_RANGE_WAIT_AFTER) == 0 ||
+                 errno == ENOSYS || errno == EINVAL,
+             STATUS_FILE, "%s: writing failed: %s", file->path, strerror(errno));
+    }
+    NEED(fsync(descriptor) == 0, STATUS_FILE, "%s: writing failed: %s", file->path,
+         strerror(errno));
+out:
+    return rc;
+}
+
 static status store(const output_file *file)
 {
     status rc = STATUS_OK;
@@ -134,8 +160,7 @@ static status store(const output_file *file)
     NEED(!file->replaces || fchmod(descriptor, file->mode) == 0, STATUS_FILE,
          "%s: cannot have the permissions of the file that it replaces: %s", file->path,
          strerror(errno));
-    NEED(fsync(descriptor) == 0, STATUS_FILE, "%s: writing failed: %s", file->path,
-         strerror(errno));
+    TRY(store_data(file, descriptor));
 out:
     if (descriptor >= 0) close(descriptor);
     return rc;
@@ -214,8 +239,12 @@ out:
 static status lock(int folder)
 {
     status rc = STATUS_OK;
+    const struct timespec pause = {.tv_nsec = 10000000};
 
-    NEED(flock(folder, LOCK_EX) == 0 || errno != EINTR, STATUS_INTERRUPTED, "interrupted");
+    while (flock(folder, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        TRY(interrupt_check());
+        nanosleep(&pause, NULL);
+    }
 out:
     return rc;
 }

@@ -14,11 +14,17 @@
 
 struct record_file {
     char *path, *text;
+    bool is_whole;     /* ends with a line end */
     char *next;        /* the first character that was not taken */
     int next_line;     /* its line number, from 1 */
     const char *taken; /* the line that was taken last */
     int taken_line;
 };
+
+const char *record_text_begin(const char *text)
+{
+    return text + (strncmp(text, "\xef\xbb\xbf", 3) ? 0 : 3);
+}
 
 static status read_whole(record_file *file)
 {
@@ -30,6 +36,7 @@ static status read_whole(record_file *file)
     NEED(input_file_read(&file->text, &size, file->path, INPUT_FILE_TEXT_LIMIT, message,
                          sizeof message) == 0,
          STATUS_FILE, "%s", message);
+    file->is_whole = size == 0 || file->text[size - 1] == '\n';
     NEED(strlen(file->text) == size, STATUS_FILE, "%s: is binary, expected text", file->path);
 out:
     return rc;
@@ -44,7 +51,7 @@ status record_file_open(record_file **out, const char *path)
     file->path = strdup(path);
     NEED(file->path, STATUS_MEMORY, "%s: no memory to read it", path);
     TRY(read_whole(file));
-    file->next = file->text;
+    file->next = file->text + (record_text_begin(file->text) - file->text);
     file->next_line = 1;
     file->taken = "";
     *out = file;
@@ -196,6 +203,11 @@ status record_file_finish(record_file *file)
     rc = record_file_reject(file, "the end of the file");
 out:
     return rc;
+}
+
+bool record_file_is_whole(const record_file *file)
+{
+    return file->is_whole;
 }
 
 int record_file_line(const record_file *file)

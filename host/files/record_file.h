@@ -10,8 +10,8 @@
 
 typedef struct record_file record_file;
 
-/* Reads the whole file; CR LF ends a line too. Fails with STATUS_FILE if it cannot be opened
- * (input_file.h), or holds a zero byte (a binary file). */
+/* Reads the whole file; CR LF ends a line too, and the byte order mark of UTF-8 is passed over. Fails
+ * with STATUS_FILE if it cannot be opened (input_file.h), or holds a zero byte (a binary file). */
 status record_file_open(record_file **out, const char *path);
 void record_file_free(record_file *file);
 
@@ -51,11 +51,17 @@ status record_file_count(record_file *file, long low, long high, long *out, cons
 __attribute__((format(printf, 2, 3))) status record_file_reject(const record_file *file,
                                                                 const char *expected, ...);
 
+/* True unless the last line has no line end, as in a file that is cut. */
+bool record_file_is_whole(const record_file *file);
+
 /* Fails unless only blank lines are left. */
 status record_file_finish(record_file *file);
 
 /* Number of the line that was taken last, from 1. */
 int record_file_line(const record_file *file);
+
+/* Where a text begins behind a byte order mark of UTF-8, if it has one. */
+const char *record_text_begin(const char *text);
 
 /* Finds up to `limit` numbers in a text; returns how many it holds, or -1 where something else
  * than numbers, blanks and commas stands. Not-a-number and infinity do not count as numbers. */

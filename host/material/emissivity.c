@@ -21,7 +21,7 @@ status emissivity_read(emissivity **out, const char *path)
     record_file *file = NULL;
     emissivity *e = malloc(sizeof *e);
 
-    NEED(e, STATUS_MEMORY, "emissivity table");
+    NEED(e, STATUS_MEMORY, "no memory for an emissivity table");
     TRY(record_file_open(&file, path));
     TRY(record_file_header(file, NULL));
     for (int angle = 0; angle < EMISSIVITY_ANGLES; angle++) TRY(read_angle(e, file, angle));

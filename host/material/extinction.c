@@ -26,7 +26,7 @@ status extinction_read(extinction **out, const char *path)
     record_file *file = NULL;
     extinction *e = malloc(sizeof *e);
 
-    NEED(e, STATUS_MEMORY, "extinction table");
+    NEED(e, STATUS_MEMORY, "no memory for an extinction table");
     TRY(record_file_open(&file, path));
     TRY(record_file_header(file, NULL));
     TRY(read_rows(e, file));

@@ -12,6 +12,9 @@
 /* Layers behind the facet's own. */
 enum { LAYERED_LAYERS_BEHIND = 3 };
 
+/* To evaporation. */
+#define LAYERED_RESISTANCE_MOST_S_M 1e6
+
 typedef struct layered_layer {
     double thickness_m, conductivity_w_m_k, capacity_j_m3_k;
 } layered_layer;

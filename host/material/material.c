@@ -2,6 +2,8 @@
 
 #include "files/record_file.h"
 
+#include <ctype.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,16 +12,24 @@
 #define CONDUCTIVITY_W_M_K (CALORIE_J * 100.0 / 3600.0) /* of 1 cal/(cm h C) */
 #define DENSITY_KG_M3 1000.0                            /* of 1 g/cm3 */
 
+static bool has_control(const char *text)
+{
+    while (*text && !iscntrl((unsigned char)*text)) text++;
+    return *text != '\0';
+}
+
 static status read_name(record_file *file, char *out, size_t size, const char *expected)
 {
     status rc = STATUS_OK;
     const char *text;
 
     TRY(record_file_text(file, &text, expected));
-    if (strlen(text) < size)
-        strcpy(out, text);
-    else
+    if (strlen(text) >= size)
         rc = record_file_reject(file, "%s of fewer than %zu letters", expected, size);
+    else if (has_control(text))
+        rc = record_file_reject(file, "%s without control characters", expected);
+    else
+        strcpy(out, text);
 out:
     return rc;
 }
@@ -71,12 +81,12 @@ status material_library_read(material_library **out, const char *path)
     long count;
     material_library *library = calloc(1, sizeof *library);
 
-    NEED(library, STATUS_MEMORY, "material library");
+    NEED(library, STATUS_MEMORY, "no memory for a material library");
     TRY(record_file_open(&file, path));
     TRY(record_file_header(file, NULL));
     TRY(record_file_count(file, 1, 100000, &count, "the number of materials"));
     library->items = calloc((size_t)count, sizeof *library->items);
-    NEED(library->items, STATUS_MEMORY, "%ld materials", count);
+    NEED(library->items, STATUS_MEMORY, "no memory for %ld materials", count);
     for (; library->count < count; library->count++)
         TRY(read_material(&library->items[library->count], library, file));
     TRY(record_file_finish(file));

@@ -42,7 +42,7 @@ status scattering_read(scattering **out, const char *path)
     record_file *file = NULL;
     scattering *s = malloc(sizeof *s);
 
-    NEED(s, STATUS_MEMORY, "scattering table");
+    NEED(s, STATUS_MEMORY, "no memory for a scattering table");
     TRY(record_file_open(&file, path));
     TRY(record_file_header(file, NULL));
     TRY(read_rows(s, file));

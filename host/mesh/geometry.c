@@ -127,6 +127,7 @@ void geometry_free(geometry *g)
     if (!g) return;
     for (uint32_t i = 0; g->materials && i < g->material_count; i++) free(g->materials[i].name);
     free(g->materials);
+    free(g->object_path);
     free_names(g->object_name, g->object_count);
     free_names(g->part_name, g->part_count);
     free(g->part_object);

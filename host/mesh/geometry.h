@@ -45,9 +45,10 @@ typedef struct geometry {
     int32_t (*neighbour)[4];     /* facet beyond the edge from corner k to the next, -1: none */
 
     uint32_t object_count, part_count, material_count;
-    char **object_name;    /* shape (object_count) */
-    char **part_name;      /* shape (part_count) */
-    uint32_t *part_object; /* index of the part's object */
+    char **object_name;       /* shape (object_count) */
+    const char **object_path; /* shape (object_count): their files; belong to the instances */
+    char **part_name;         /* shape (part_count) */
+    uint32_t *part_object;    /* index of the part's object */
     geometry_material *materials;
     float low[3], high[3]; /* box of the finite positions, relative to the origin */
     uint32_t non_manifold_count, degenerate_count, duplicate_count, non_finite_count;

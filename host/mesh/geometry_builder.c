@@ -123,7 +123,21 @@ static int is_part(const geometry *g, uint32_t part, const geometry_source_face 
            !strcmp(g->object_name[g->part_object[part]], face->object);
 }
 
-static status find_part(geometry_builder *builder, const geometry_source_face *face)
+/* Adds an object of a file. */
+static status add_object(geometry *g, const char *name, const char *path)
+{
+    status rc = STATUS_OK;
+
+    NEED(array_add(&g->object_path, g->object_count, sizeof *g->object_path), STATUS_MEMORY,
+         "no memory for objects");
+    g->object_path[g->object_count] = path;
+    TRY(add_name(&g->object_name, &g->object_count, name));
+out:
+    return rc;
+}
+
+static status find_part(geometry_builder *builder, const geometry_source_face *face,
+                        const char *path)
 {
     status rc = STATUS_OK;
     geometry *g = builder->g;
@@ -132,7 +146,7 @@ static status find_part(geometry_builder *builder, const geometry_source_face *f
     if (g->part_count > builder->file_part && is_part(g, builder->last_part, face))
         return STATUS_OK;
     TRY(name_table_number(builder->objects, builder->file_object, face->object, &object));
-    if (object == g->object_count) TRY(add_name(&g->object_name, &g->object_count, face->object));
+    if (object == g->object_count) TRY(add_object(g, face->object, path));
     TRY(name_table_number(builder->parts, object, face->part, &builder->last_part));
     if (builder->last_part < g->part_count) return STATUS_OK;
     NEED(array_add(&g->part_object, g->part_count, sizeof *g->part_object), STATUS_MEMORY,
@@ -207,7 +221,7 @@ status geometry_builder_add_face(geometry_builder *builder, const geometry_sourc
     uint32_t few[4], *corner = few;
 
     TRY(interrupt_check());
-    TRY(find_part(builder, face));
+    TRY(find_part(builder, face, path));
     TRY(find_material(builder, face, path));
     if (face->corner_count > 4) corner = malloc(face->corner_count * sizeof *corner);
     NEED(corner, STATUS_MEMORY, "no memory for a polygon");
@@ -244,7 +258,7 @@ static status connect(geometry_builder *builder)
     first[g->facet_count] = used;
     NEED(mesh_connect(&connection, g->vertex_count, (const double(*)[3])builder->position,
                       g->facet_count, first, corner, message, sizeof message) == 0,
-         STATUS_MEMORY, "%s", message);
+         STATUS_MEMORY, "no memory for %s", message);
     for (uint32_t i = 0; i < g->facet_count; i++)
         for (uint32_t k = 0; k < 4; k++)
             g->neighbour[i][k] =

@@ -51,7 +51,7 @@ static status reserve(void *array, uint32_t *room, uint32_t count, uint32_t more
     status rc = STATUS_OK;
     uint32_t wanted = *room ? *room : 256;
 
-    NEED(count <= FACET_LIMIT, STATUS_MEMORY, "more than %d facets or vertices", FACET_LIMIT);
+    NEED(count <= FACET_LIMIT, STATUS_ARGUMENT, "more than %d facets or vertices", FACET_LIMIT);
     while (wanted < count + more) wanted *= 2;
     if (wanted == *room) return STATUS_OK;
     NEED(array_resize(array, wanted, item_size), STATUS_MEMORY,
@@ -281,7 +281,7 @@ status geometry_file_read(geometry_file **out, const char *path)
     reading r = {0};
 
     r.out = calloc(1, sizeof *r.out);
-    NEED(r.out, STATUS_MEMORY, "geometry");
+    NEED(r.out, STATUS_MEMORY, "no memory for a geometry");
     TRY(record_file_open(&r.file, path));
     r.out->source = r.file;
     do {

@@ -1,6 +1,7 @@
 #include "rays/ray_stream.h"
 
 #include "base/number.h"
+#include "files/record_file.h"
 
 #include <errno.h>
 #include <math.h>
@@ -60,7 +61,8 @@ static status read_lines(ray_stream *stream, ray_batch *out)
     double ray[6];
 
     while (out->count < RAY_BATCH_SIZE && getline(&line, &size, stream->file) >= 0) {
-        NEED(parse(line, ray), STATUS_FORMAT,
+        const char *text = stream->ray_count == 0 ? record_text_begin(line) : line;
+        NEED(parse(text, ray), STATUS_FORMAT,
              "line %llu: '%.*s' stands there, expected ox oy oz dx dy dz",
              (unsigned long long)stream->ray_count + 1, (int)strcspn(line, "\r\n"), line);
         TRY(add_ray(stream, out, ray));

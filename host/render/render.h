@@ -34,8 +34,8 @@ status render_move(render *r, const scene *s);
 /* The planes of the scene, radiances first; they belong to the render. */
 const render_plane *render_planes(const render *r, size_t *out_count);
 
-/* The most pixels that a tile should hold: what they need on the device stays below 32 MiB,
- * whatever the number of their samples. */
+/* The most pixels that a tile should hold, at least 1: what they need on the device stays below 32 MiB,
+ * whatever the number of their samples, unless one pixel needs more (scene_limits.h). */
 uint32_t render_tile_limit(const render *r);
 
 /* Computes pixels first_pixel .. first_pixel + pixel_count - 1, counted along the rows. The values

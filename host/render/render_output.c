@@ -8,6 +8,7 @@
 #include "render/render_probe.h"
 #include "render/render_sensor.h"
 #include "render/render_summary.h"
+#include "scene/scene_limits.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -363,6 +364,15 @@ static void time_folder(char *out, size_t size, const char *folder, const site *
     out[length < size ? length : size - 1] = '\0';
 }
 
+/* Planes that the images hold at least: the radiances, and those that are asked for. */
+static size_t least_planes(const scene *s, const char *planes)
+{
+    size_t count = s->band_count + (planes ? 1u : TRUTH_PLANES + SUN_PLANES);
+
+    for (; planes && *planes; planes++) count += *planes == ',';
+    return count;
+}
+
 status render_output(const scene *s, device *const *dev, size_t dev_count,
                      const render_output_options *options)
 {
@@ -373,6 +383,7 @@ status render_output(const scene *s, device *const *dev, size_t dev_count,
     render_pool *pool = NULL;
 
     NEED(folder && at, STATUS_MEMORY, "no memory for %zu times", s->time_count);
+    TRY(scene_limits_disk(s, least_planes(s, options->planes), options->folder));
     for (size_t i = 0; i < s->time_count; i++) {
         at[i] = *s;
         at[i].place.time_s = s->time_s[i];

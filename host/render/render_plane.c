@@ -11,7 +11,7 @@ typedef struct plane_kind {
     bool categorical;
 } plane_kind;
 
-enum { SHAPE_FACTOR = 8 }; /* its unit is its reading */
+enum { TEMPERATURE = 4, BACKGROUND_TEMPERATURE = 5, SHAPE_FACTOR = 8 };
 
 /* As truth.cl and sun_times.cl write them. */
 static const plane_kind truth_kinds[TRUTH_PLANES + SUN_PLANES] = {
@@ -51,9 +51,12 @@ static const plane_kind band_kinds[BAND_PLANES] = {
 static render_plane truth_plane(const scene *s, uint32_t kind)
 {
     const plane_kind *k = &truth_kinds[kind];
-    render_plane p = {.source = kind, .plane = {.unit = k->unit, .categorical = k->categorical}};
+    render_plane p = {.source = kind,
+                      .is_surface_c = kind == TEMPERATURE || kind == BACKGROUND_TEMPERATURE,
+                      .plane = {.unit = k->unit, .categorical = k->categorical}};
 
     snprintf(p.name, sizeof p.name, "%s", k->name);
+    /* Its unit is its reading. */
     if (s->thesis && kind == SHAPE_FACTOR) p.plane.unit = "thesis eq. 2.4.2-6";
     return p;
 }

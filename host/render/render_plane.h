@@ -5,15 +5,16 @@
 #include "image/image.h"
 #include "scene/scene.h"
 
-enum { RENDER_PLANE_NAME_SIZE = 128 };
+enum { RENDER_PLANE_NAME_SIZE = 160 };
 
 typedef struct render_plane {
     char name[RENDER_PLANE_NAME_SIZE];
     image_plane plane; /* its name is the one above */
     bool is_radiance;  /* belongs to the cube; all others to the truth */
     bool is_of_band;
-    bool is_part;    /* one of the parts of a band's radiance: computed only where it is wanted */
-    uint32_t source; /* of a band: band x BAND_PLANES + plane; else which of the others */
+    bool is_surface_c; /* temperatures of surfaces in C, or NO_VALUE */
+    bool is_part;      /* one of the parts of a band's radiance: computed only where it is wanted */
+    uint32_t source;   /* of a band: band x BAND_PLANES + plane; else which of the others */
 } render_plane;
 
 /* Takes some values of a plane, from pixel `first` on. */

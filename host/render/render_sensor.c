@@ -2,6 +2,7 @@
 
 #include "render/render_plane.h"
 #include "sensor/detector_chain.h"
+#include "thermal/value_check.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,10 +40,17 @@ status render_sensor_write(image **out, output_folder *folder, const scene *s, d
     detector_chain *d = NULL;
 
     TRY(detector_chain_open(&d, dev, &s->sensor, image_columns(cube), image_rows(cube)));
+    const size_t pixels = (size_t)detector_chain_columns(d) * detector_chain_rows(d);
     TRY(create(&img, folder, s, d, cube));
     for (uint32_t i = 0; i < s->band_count; i++) {
         TRY(detector_chain_band(d, &s->bands[i], s->air, scene_quadrature(s), image_values(cube, i),
                                 image_values(img, i)));
+        const size_t at = value_check_finite(image_values(img, i), pixels);
+        NEED(at == pixels, STATUS_ARGUMENT,
+             "sensor_%s: found %g in row %zu, column %zu, expected a finite number: is [sensor] "
+             "right?",
+             s->bands[i].name, (double)image_values(img, i)[at], at / detector_chain_columns(d),
+             at % detector_chain_columns(d));
         image_unload(cube);
         image_unload(img);
     }

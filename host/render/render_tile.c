@@ -5,10 +5,12 @@
 
 #include "hemisphere/point_order.h"
 #include "sunlight/sunlight.h"
+#include "thermal/value_check.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-enum { TILE_BYTES = 1 << 25, TILE_LEAST = 1 << 10, TILE_MOST = 1 << 16 };
+enum { TILE_BYTES = 1 << 25, TILE_MOST = 1 << 16, TILE_GROUP = 1 << 6 };
 
 /* Spectra are integrated while they are in a cache. Groups of pixels of a work-group, and the least
  * that are launched at once. */
@@ -32,9 +34,10 @@ uint32_t render_tile_most(const render_shared *r)
     const uint64_t words = hemisphere_grid_cell_count(r->grid) + 64u + 2u * r->frame.knot_count +
                            (r->media ? body_words(r) : 0u) +
                            (uint64_t)r->s->band_count * BAND_PLANES;
-    const uint64_t limit = ((uint64_t)TILE_BYTES / (words * sizeof(float))) & ~(uint64_t)63;
+    const uint64_t limit = (uint64_t)TILE_BYTES / (words * sizeof(float));
 
-    return limit < TILE_LEAST ? TILE_LEAST : limit > TILE_MOST ? TILE_MOST : (uint32_t)limit;
+    if (limit < TILE_GROUP) return limit > 0 ? (uint32_t)limit : 1;
+    return limit > TILE_MOST ? TILE_MOST : (uint32_t)(limit - limit % TILE_GROUP);
 }
 
 static bool has_incident(const render_shared *r)
@@ -410,6 +413,42 @@ static const float *plane_in(const tile_view *v, const render_plane *p)
                          : v->truth + (size_t)p->source * v->count;
 }
 
+/* Fails for what a pixel shows: the facet of the first of its samples that met one. */
+static status refuse(const render_tile_memory *t, const render_shared *r, const render_plane *p,
+                     uint32_t pixel, float value)
+{
+    status rc = STATUS_OK;
+    const size_t first = (size_t)pixel * t->samples, end = first + t->samples;
+    hit_record *met = malloc(end * sizeof *met);
+    uint32_t facet = RECORD_NONE;
+    char text[1024] = "the sky";
+
+    NEED(met, STATUS_MEMORY, "no memory for the samples of a pixel");
+    TRY(device_download(r->dev, t->hit, end, met));
+    for (size_t i = first; i < end && facet == RECORD_NONE; i++) facet = met[i].facet;
+    if (facet != RECORD_NONE) scene_facet_text(r->s, facet, text, sizeof text);
+    rc = status_set(STATUS_ARGUMENT, "%s: found %g in the plane %s, expected %s", text,
+                    (double)value, p->name,
+                    p->is_surface_c ? "a temperature of " VALUE_CHECK_RANGE : "a finite number");
+out:
+    free(met);
+    return rc;
+}
+
+/* Whether the wanted planes can be what they say. */
+static status check_planes(const render_tile_memory *t, const render_shared *r, const tile_view *v,
+                           const render_plane *planes, size_t plane_count, float *const *values)
+{
+    for (size_t i = 0; i < plane_count; i++) {
+        if (!values[i]) continue;
+        const float *from = plane_in(v, &planes[i]);
+        const size_t at = planes[i].is_surface_c ? value_check_celsius(from, v->count)
+                                                 : value_check_finite(from, v->count);
+        if (at < v->count) return refuse(t, r, &planes[i], (uint32_t)at, from[at]);
+    }
+    return STATUS_OK;
+}
+
 static status store_planes(const tile_view *v, const render_plane *planes, size_t plane_count,
                            float *const *values, const render_store *store)
 {
@@ -441,6 +480,7 @@ status render_tile_store(const render_tile_memory *t, const render_shared *r,
 
     TRY(device_map(r->dev, truth, truth_length, &v.truth));
     TRY(device_map(r->dev, bands, rows * band_plane_row(v.count), &v.bands));
+    TRY(check_planes(t, r, &v, planes, plane_count, values));
     TRY(store_planes(&v, planes, plane_count, values, store));
 out:
     device_unmap(r->dev, bands, v.bands);

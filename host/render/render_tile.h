@@ -51,7 +51,7 @@ typedef struct render_tile_memory {
     uint32_t groups_at_once;
 } render_tile_memory;
 
-/* The most pixels that a tile should hold: see render_tile_limit. */
+/* The most samples that a tile should hold, at least 1: see render_tile_limit. */
 uint32_t render_tile_most(const render_shared *r);
 
 /* Samples of a pixel; where there are several, what follows counts them, and not pixels. */
@@ -74,7 +74,8 @@ status render_tile_compute(const render_tile_memory *t, const render_shared *r);
 status render_tile_average(const render_tile_memory *t, const render_shared *r,
                            uint32_t categorical);
 
-/* Takes the wanted planes of the tile's pixels to where they belong.
+/* Takes the wanted planes of the tile's pixels to where they belong. Fails with STATUS_ARGUMENT, and
+ * the name of the facet, where a value is not finite or no surface can have a temperature.
  *   planes, values   shape (plane_count); values and store: as render_tile has them */
 status render_tile_store(const render_tile_memory *t, const render_shared *r,
                          const render_plane *planes, size_t plane_count, float *const *values,

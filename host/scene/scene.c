@@ -2,6 +2,7 @@
 
 #include "base/spelling.h"
 #include "kernels/radiance/lobe.h"
+#include "scene/scene_limits.h"
 #include "scene/scene_parts.h"
 
 #include <math.h>
@@ -30,11 +31,13 @@ static void read_name(scene_reader *reader)
     const char *name = "";
 
     scene_table_require(&t, "name", "the name of the scene, from which files are named");
-    scene_table_string(&t, "name", &name);
-    if (strcspn(name, "/\\\n") != strlen(name) || *name == '.')
+    if (scene_table_name(&t, "name", "/\\", "a name for files, without slashes", &name) &&
+        *name == '.')
         scene_fail(reader, toml_node_get(reader->root, "name"),
-                   "name: found \"%s\", expected a name for files, without slashes", name);
+                   "name: found \"%s\", expected a name for files, not beginning with a dot", name);
     reader->s->name = strdup(name);
+    if (!reader->s->name)
+        scene_took(reader, status_set(STATUS_MEMORY, "no memory for the scene's name"));
 }
 
 /* Facets that need a thickness or a temperature and have none, by material. */
@@ -43,13 +46,12 @@ static void check_facets(scene_reader *reader)
     const scene *s = reader->s;
     const geometry *g = s->shape;
     const bool fixed = s->thermal == SCENE_THERMAL_FIXED;
-    bool *told = calloc(g->material_count + 1, sizeof *told);
+    bool *told = calloc((size_t)g->material_count + 1, sizeof *told);
 
-    if (!told) {
-        scene_fail(reader, NULL, "no memory for %u materials", g->material_count);
-        return;
-    }
-    for (uint32_t i = 0; i < g->facet_count; i++) {
+    if (!told)
+        scene_took(reader,
+                   status_set(STATUS_MEMORY, "no memory for %u materials", g->material_count));
+    for (uint32_t i = 0; told && i < g->facet_count; i++) {
         const uint32_t k = g->material[i];
         if (told[k]) continue;
         const scene_material *m = &s->materials[s->material_of[k]];
@@ -61,7 +63,7 @@ static void check_facets(scene_reader *reader)
                            "its [[material]]"
                          : "%s: face %u of material %s has no thickness: state thickness_cm in its "
                            "[[geometry]] or [[material]]",
-                   g->materials[k].path, g->facet_id[i], m->name);
+                   g->object_path[g->part_object[g->part[i]]], g->facet_id[i], m->name);
         told[k] = true;
     }
     free(told);
@@ -131,10 +133,11 @@ static void warn_about_facets(const scene *s)
                     g->non_manifold_count);
 }
 
+/* The ground plane never states its temperature. */
 static void check_weather(scene_reader *reader)
 {
     const scene *s = reader->s;
-    bool computed = false;
+    bool computed = s->shape && s->ground_material != RECORD_NONE;
 
     for (uint32_t i = 0; s->shape && i < s->shape->facet_count && !computed; i++)
         computed = s->shape->stated_temperature_k[i] == 0.0f;
@@ -153,13 +156,10 @@ static void check_bands(scene_reader *reader)
     for (uint32_t i = 0; s->air && i < s->band_count; i++) {
         const band *b = &s->bands[i];
         if (b->table == refused) continue; /* one message a table */
-        const size_t kept = strlen(status_message());
         band_samples samples = {0};
-        if (!b->sensor && !(b->low_um > 0.0 && b->low_um < b->high_um)) continue;
-        if (band_sample(&samples, b, s->air, scene_quadrature(s)) != STATUS_OK) {
-            scene_fail(reader, toml_node_at(list, b->table), "%s", status_message() + kept);
+        if (!scene_took_at(reader, toml_node_at(list, b->table),
+                           band_sample(&samples, b, s->air, scene_quadrature(s))))
             refused = b->table;
-        }
         band_samples_free(&samples);
     }
 }
@@ -183,6 +183,7 @@ static void read_parts(scene_reader *reader)
     scene_read_geometry(reader);
     scene_read_materials(reader, ground_material);
     check_weather(reader);
+    scene_limits_check(reader);
     if (!s->shape || reader->failure_count > 0) return;
     check_facets(reader);
     scene_check_media(reader);
@@ -219,7 +220,7 @@ status scene_read(scene **out, const char *path, const char *const *setting, siz
     scene_add_input(&reader, NULL, "", path);
     read_parts(&reader);
     if (reader.failure_count > 0) {
-        rc = STATUS_FORMAT;
+        rc = reader.ending ? reader.ending : STATUS_FORMAT;
         goto out;
     }
     for (size_t i = 0; i < reader.s->input_count; i++)
@@ -230,14 +231,7 @@ out:
     input_hashes_free(hashes);
     toml_file_free(file);
     scene_free(reader.s);
-    return rc;
-}
-
-static void free_band(band *b)
-{
-    free(b->name);
-    response_free(b->tabulated);
-    response_file_free(b->sensor);
+    return status_finish(rc);
 }
 
 /* Takes the next name of a list; returns what is left, or NULL at the end. */
@@ -271,7 +265,7 @@ status scene_keep_bands(scene *s, const char *names)
         if (kept[i])
             s->bands[count++] = s->bands[i];
         else
-            free_band(&s->bands[i]);
+            band_free(&s->bands[i]);
     }
     s->band_count = count;
 out:
@@ -293,7 +287,7 @@ void scene_free(scene *s)
     }
     free(s->materials);
     free(s->material_of);
-    for (uint32_t i = 0; i < s->band_count; i++) free_band(&s->bands[i]);
+    for (uint32_t i = 0; i < s->band_count; i++) band_free(&s->bands[i]);
     free(s->bands);
     psf_free(s->sensor.table);
     for (size_t i = 0; i < s->input_count; i++) {
@@ -357,6 +351,22 @@ uint32_t scene_emissivity_rows(const scene *s)
     for (uint32_t i = 0; i < s->material_count; i++)
         rows += s->materials[i].record.emissivity_angles + scene_lobe_rows(s, i);
     return rows;
+}
+
+const char *scene_facet_text(const scene *s, uint32_t facet, char *out, size_t size)
+{
+    const geometry *g = s->shape;
+
+    if (facet == g->facet_count) {
+        snprintf(out, size, "%s: the ground plane of material %s", s->path,
+                 s->materials[s->ground_material].name);
+        return out;
+    }
+    const uint32_t part = g->part[facet], object = g->part_object[part];
+    snprintf(out, size, "%s: face %u of object %s, part %s, material %s", g->object_path[object],
+             g->facet_id[facet], g->object_name[object], g->part_name[part],
+             s->materials[s->material_of[g->material[facet]]].name);
+    return out;
 }
 
 /* A body's facets are met by no ray: any temperature does. */

@@ -122,6 +122,10 @@ uint32_t scene_lobe_rows(const scene *s, uint32_t material);
  * where no emissivity has angles. */
 uint32_t scene_lobe_rings(const scene *s);
 
+/* Writes what a facet is, for messages: its file, object, part and material; the ground's is facet_count.
+ * Returns out. */
+const char *scene_facet_text(const scene *s, uint32_t facet, char *out, size_t size);
+
 /* Fills the records of the facets and, behind them, of the ground plane if there is one.
  *   out   shape (facet_count + 1) */
 void scene_facet_records(const scene *s, facet_record *out);

@@ -40,7 +40,7 @@ void scene_read_geometry(scene_reader *reader)
     }
     instances = calloc(count, sizeof *instances);
     if (!instances) {
-        scene_fail(reader, list, "no memory for %zu instances", count);
+        scene_took(reader, status_set(STATUS_MEMORY, "no memory for %zu instances", count));
         return;
     }
     for (size_t i = 0; i < count; i++)

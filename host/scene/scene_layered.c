@@ -46,8 +46,8 @@ static void read_resistance(scene_table *t, layered_matter *out)
     if (!node) return;
     scene_table_require(&r, "day", "s/m, 0 for a wet surface");
     scene_table_require(&r, "night", "s/m");
-    scene_table_number(&r, "day", 0.0, 1e6, &out->resistance_day_s_m);
-    scene_table_number(&r, "night", 0.0, 1e6, &out->resistance_night_s_m);
+    scene_table_number(&r, "day", 0.0, LAYERED_RESISTANCE_MOST_S_M, &out->resistance_day_s_m);
+    scene_table_number(&r, "night", 0.0, LAYERED_RESISTANCE_MOST_S_M, &out->resistance_night_s_m);
     scene_table_close(&r);
 }
 

@@ -47,7 +47,7 @@ static stated_material read_stated(scene_reader *reader, const toml_node *node)
                          .layered = layered_matter_default()};
 
     scene_table_require(&t, "name", "the name that the geometry gives it");
-    scene_table_string(&t, "name", &m.name);
+    scene_table_name(&t, "name", "", "a name", &m.name);
     scene_table_number(&t, "emissivity", 0.0, 1.0, &m.emissivity);
     scene_table_file(&t, "emissivity_file", &m.emissivity_path);
     scene_table_number(&t, "extinction_per_km", 0.0, 1e6, &m.extinction_per_km);
@@ -80,7 +80,7 @@ static void read_all_stated(material_sources *from)
     }
     from->stated = calloc(count + 1, sizeof *from->stated);
     if (!from->stated) {
-        scene_fail(from->reader, list, "no memory for %zu materials", count);
+        scene_took(from->reader, status_set(STATUS_MEMORY, "no memory for %zu materials", count));
         return;
     }
     for (; from->stated_count < count; from->stated_count++)
@@ -105,7 +105,9 @@ static void read_library(material_sources *from)
     if (scene_table_file(&t, "materials", &path)) {
         const char *slash = strrchr(path, '/');
         from->library_folder = strndup(path, slash ? (size_t)(slash - path + 1) : 0);
-        scene_took(from->reader, material_library_read(&from->library, path));
+        scene_took(from->reader, from->library_folder
+                                     ? material_library_read(&from->library, path)
+                                     : status_set(STATUS_MEMORY, "%s: no memory to read it", path));
     }
     scene_table_close(&t);
 }
@@ -231,13 +233,18 @@ static void check_material(scene_reader *reader, const scene_material *m,
                    m->name, model);
 }
 
-static void add_material(const material_sources *from, const char *name, const material *known,
-                         const stated_material *stated)
+/* Returns the new material's index, or RECORD_NONE without memory. */
+static uint32_t add_material(const material_sources *from, const char *name, const material *known,
+                             const stated_material *stated)
 {
     scene *s = from->reader->s;
-    scene_material *m = &s->materials[s->material_count++];
+    scene_material *m = &s->materials[s->material_count];
 
     m->name = strdup(name);
+    if (!m->name) {
+        scene_took(from->reader, status_set(STATUS_MEMORY, "%s: no memory for the material", name));
+        return RECORD_NONE;
+    }
     m->record = make_record(from, known, stated);
     read_extinction(from, m, known, stated);
     m->record.emissivity_angles = 1;
@@ -251,6 +258,7 @@ static void add_material(const material_sources *from, const char *name, const m
     }
     if (m->medium == RECORD_NONE)
         check_material(from->reader, m, stated, stated ? stated->node : from->library_node);
+    return s->material_count++;
 }
 
 static void fail_unknown(const material_sources *from, const char *name, const char *user)
@@ -278,6 +286,7 @@ static uint32_t use_material(const material_sources *from, const char *name, int
         known = code >= 0 && !stated ? material_by_code(from->library, code)
                                      : material_by_name(from->library, name);
     if (!known && !stated) {
+        if (from->library_node && !from->library) return RECORD_NONE; /* that has been told */
         if (code >= 0)
             scene_fail(from->reader, from->library_node,
                        "%s: material %d (%s) is not in the library", user, code, name);
@@ -288,8 +297,7 @@ static uint32_t use_material(const material_sources *from, const char *name, int
     const char *own = known ? known->name : name;
     for (uint32_t i = 0; i < s->material_count; i++)
         if (!strcmp(s->materials[i].name, own)) return i;
-    add_material(from, own, known, stated);
-    return s->material_count - 1;
+    return add_material(from, own, known, stated);
 }
 
 /* Rows of the emissivity table: of all materials, then of all their diffuse lobes. */
@@ -317,7 +325,8 @@ static void use_all(const material_sources *from, const char *ground_material)
     s->materials = calloc(g->material_count + 1, sizeof *s->materials);
     s->material_of = calloc(g->material_count + 1, sizeof *s->material_of);
     if (!s->materials || !s->material_of) {
-        scene_fail(from->reader, NULL, "no memory for %u materials", g->material_count);
+        scene_took(from->reader,
+                   status_set(STATUS_MEMORY, "no memory for %u materials", g->material_count));
         return;
     }
     for (uint32_t i = 0; i < g->material_count; i++)

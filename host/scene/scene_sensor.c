@@ -7,18 +7,15 @@
 
 static const double FARTHEST_M = 1e9;
 
-enum { PIXEL_LIMIT = 1 << 20, BAND_LIMIT = 4096, SAMPLE_LIMIT = 1024 };
+enum { BAND_LIMIT = 4096, SAMPLE_LIMIT = 1024 };
 
 static void read_pixels(scene_table *t, view *camera)
 {
     double pixels[2];
 
-    if (!scene_table_numbers(t, "pixels", 2, 1.0, PIXEL_LIMIT, pixels)) return;
+    if (!scene_table_whole_numbers(t, "pixels", 2, 1.0, VIEW_SIDE, pixels)) return;
     camera->columns = (int)pixels[0];
     camera->rows = (int)pixels[1];
-    if (pixels[0] != floor(pixels[0]) || pixels[1] != floor(pixels[1]))
-        scene_fail(t->reader, toml_node_get(t->node, "pixels"),
-                   "camera.pixels: expected whole numbers, columns and rows");
 }
 
 /* [column, row, columns, rows] of the frame. */
@@ -26,15 +23,13 @@ static void read_crop(scene_table *t, view *camera)
 {
     double part[4];
 
-    if (!scene_table_numbers(t, "crop", 4, 0.0, PIXEL_LIMIT, part)) return;
+    if (!scene_table_whole_numbers(t, "crop", 4, 0.0, VIEW_SIDE, part)) return;
     for (int i = 0; i < 2; i++) {
         const int size = i ? camera->rows : camera->columns;
-        if (part[i] == floor(part[i]) && part[2 + i] == floor(part[2 + i]) && part[2 + i] >= 1.0 &&
-            part[i] + part[2 + i] <= size)
-            continue;
+        if (part[2 + i] >= 1.0 && part[i] + part[2 + i] <= size) continue;
         scene_fail(t->reader, toml_node_get(t->node, "crop"),
-                   "camera.crop: found [%g, %g, %g, %g], expected whole numbers, column and row, "
-                   "columns and rows, within %d x %d pixels",
+                   "camera.crop: found [%g, %g, %g, %g], expected column and row, columns and rows "
+                   "within %d x %d pixels",
                    part[0], part[1], part[2], part[3], camera->columns, camera->rows);
         return;
     }
@@ -144,31 +139,23 @@ static const char *read_band_name(scene_table *t)
     const char *name = "";
 
     scene_table_require(t, "name", "a name for the band's planes");
-    scene_table_string(t, "name", &name);
-    if (strcspn(name, " ,{}[]/\\\n") != strlen(name))
-        scene_fail(t->reader, t->node,
-                   "%s.name: found \"%s\", expected a word without blanks , { } [ ] /",
-                   toml_node_name(t->node), name);
+    scene_table_name(t, "name", " ,{}[]/\\", "a word without blanks , { } [ ] /", &name);
     return name;
 }
 
 static long read_count(scene_table *t, const band *b)
 {
-    const scene *s = t->reader->s;
-    const toml_node *node = scene_table_node(t, "count");
+    const toml_node *node = toml_node_get(t->node, "count");
     double count = 1.0;
 
-    if (!scene_table_number(t, "count", 1.0, BAND_LIMIT, &count)) return 1;
-    if (count == floor(count) && s->band_count + count <= BAND_LIMIT && !b->tabulated && !b->sensor)
-        return (long)count;
-    scene_fail(t->reader, node,
-               "%s.count: found %g, expected a whole number beside wavelength_um, and at most %d "
-               "bands",
-               toml_node_name(t->node), count, BAND_LIMIT);
-    return 1;
+    if (!scene_table_whole(t, "count", 1.0, BAND_LIMIT, &count)) return 1;
+    if (b->tabulated || b->sensor)
+        scene_fail(t->reader, node, "%s: found %g, expected it beside wavelength_um",
+                   toml_node_name(node), count);
+    return (long)count;
 }
 
-/* Adds a band that owns what `b` owns. */
+/* Adds a band that owns what `b` owns; there is room for it. */
 static void add_band(scene_reader *reader, const toml_node *node, band b, const char *name)
 {
     scene *s = reader->s;
@@ -179,7 +166,12 @@ static void add_band(scene_reader *reader, const toml_node *node, band b, const 
         break;
     }
     b.name = strdup(name);
-    s->bands[s->band_count++] = b;
+    if (b.name) {
+        s->bands[s->band_count++] = b;
+        return;
+    }
+    scene_took(reader, status_set(STATUS_MEMORY, "%s: no memory for the band", name));
+    band_free(&b);
 }
 
 /* Cuts a band into bands of equal width: NAME_000, NAME_001 .. for 200 of them. */
@@ -202,6 +194,7 @@ static void read_band(scene_reader *reader, const toml_node *node, uint32_t tabl
 {
     scene_table t = scene_table_open(reader, node, "band");
     band b = {.gain = 1.0, .table = table};
+    const int failures = reader->failure_count;
     const char *name = read_band_name(&t);
 
     read_response(&t, &b);
@@ -213,7 +206,12 @@ static void read_band(scene_reader *reader, const toml_node *node, uint32_t tabl
     scene_table_number(&t, "offset", -1e30, 1e30, &b.offset);
     const long count = read_count(&t, &b);
     scene_table_close(&t);
-    if (count > 1)
+    if ((long)reader->s->band_count + count > BAND_LIMIT)
+        scene_fail(reader, node, "%s: is one of more than %d bands", toml_node_name(node),
+                   BAND_LIMIT);
+    if (reader->failure_count > failures)
+        band_free(&b);
+    else if (count > 1)
         add_series(reader, node, b, name, count);
     else
         add_band(reader, node, b, name);
@@ -234,11 +232,23 @@ void scene_read_bands(scene_reader *reader)
     }
     s->bands = calloc(BAND_LIMIT, sizeof *s->bands);
     if (!s->bands) {
-        scene_fail(reader, list, "no memory for %zu bands", count);
+        scene_took(reader, status_set(STATUS_MEMORY, "no memory for %zu bands", count));
         return;
     }
-    for (size_t i = 0; i < count && s->band_count < BAND_LIMIT; i++)
-        read_band(reader, toml_node_at(list, i), (uint32_t)i);
+    for (size_t i = 0; i < count; i++) read_band(reader, toml_node_at(list, i), (uint32_t)i);
+}
+
+static void read_step(scene_table *t, const char *key, double range_deg, double *out)
+{
+    const toml_node *node = toml_node_get(t->node, key);
+    double step_deg;
+
+    if (!scene_table_number(t, key, .5, range_deg, &step_deg)) return;
+    if (fabs(remainder(range_deg, step_deg)) < 1e-6 * range_deg)
+        *out = step_deg;
+    else
+        scene_fail(t->reader, node, "%s: found %g, expected a divisor of %g", toml_node_name(node),
+                   step_deg, range_deg);
 }
 
 static void read_hemisphere(scene_reader *reader, const toml_node *node)
@@ -247,15 +257,15 @@ static void read_hemisphere(scene_reader *reader, const toml_node *node)
 
     scene_table_require(&t, "zenith", "degrees, a divisor of 90");
     scene_table_require(&t, "azimuth", "degrees, a divisor of 360");
-    scene_table_number(&t, "zenith", .5, 90.0, &reader->s->hemisphere_zenith_step_deg);
-    scene_table_number(&t, "azimuth", .5, 360.0, &reader->s->hemisphere_azimuth_step_deg);
+    read_step(&t, "zenith", 90.0, &reader->s->hemisphere_zenith_step_deg);
+    read_step(&t, "azimuth", 360.0, &reader->s->hemisphere_azimuth_step_deg);
     scene_table_close(&t);
 }
 
 static void read_samples(scene_table *t)
 {
     scene *s = t->reader->s;
-    const toml_node *node = scene_table_node(t, "samples_per_pixel");
+    const toml_node *node = toml_node_get(t->node, "samples_per_pixel");
     double samples = 1.0, seed = 0.0;
 
     s->samples_per_side = 1;
@@ -265,9 +275,6 @@ static void read_samples(scene_table *t)
     if (s->samples_per_side * s->samples_per_side != (uint32_t)samples)
         scene_fail(t->reader, node, "%s: found %g, expected a square number: 1, 4, 9 .. %d",
                    toml_node_name(node), samples, SAMPLE_LIMIT);
-    else if (samples * s->camera.columns * s->camera.rows > UINT32_MAX)
-        scene_fail(t->reader, node, "%s: %d x %d pixels of %g samples are more than %u",
-                   toml_node_name(node), s->camera.columns, s->camera.rows, samples, UINT32_MAX);
 }
 
 void scene_read_render(scene_reader *reader)

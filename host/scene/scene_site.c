@@ -16,7 +16,7 @@ static bool read_one_time(scene_table *t, const toml_node *node, site *out)
 
     if (toml_node_time(&iso, node, message, sizeof message) != 0)
         return scene_took(t->reader, status_set(STATUS_FORMAT, "%s", message));
-    return scene_took(t->reader, site_parse_time(iso, &out->time_s, &out->utc_offset_min));
+    return scene_took_at(t->reader, node, site_parse_time(iso, &out->time_s, &out->utc_offset_min));
 }
 
 /* Several times: of one local day, in its order, so that one history of weather holds for all. */
@@ -94,12 +94,13 @@ static void read_celsius(scene_table *t, const char *key, double *out_k)
 {
     double celsius;
 
-    if (scene_table_number(t, key, -100.0, 100.0, &celsius)) *out_k = celsius + 273.15;
+    if (scene_table_number(t, key, WEATHER_LEAST_C, WEATHER_MOST_C, &celsius))
+        *out_k = celsius + 273.15;
 }
 
 static void read_summary(scene_table *t, weather_summary *summary)
 {
-    double kind, pressure_hpa, rain_mm_h;
+    double cloud, pressure_hpa, rain_mm_h;
 
     scene_table_require(t, "air_temperature_sunrise_c", "degrees C, or history = a .wth file");
     scene_table_require(t, "air_temperature_peak_c", "degrees C");
@@ -115,8 +116,8 @@ static void read_summary(scene_table *t, weather_summary *summary)
     if (scene_table_number(t, "pressure_hpa", 300.0, 1100.0, &pressure_hpa))
         summary->pressure_pa = 100.0 * pressure_hpa;
     scene_table_number(t, "sky_exposure", 0.0, 1.0, &summary->sky_exposure);
-    if (scene_table_number(t, "cloud_type", 0.0, WEATHER_CLOUD_TYPES - 1, &kind))
-        summary->cloud_type = (int)kind;
+    if (scene_table_whole(t, "cloud_type", 0.0, WEATHER_CLOUD_TYPES - 1, &cloud))
+        summary->cloud_type = (int)cloud;
     scene_table_number(t, "sunrise_h", 0.0, 24.0, &summary->sunrise_h);
     scene_table_number(t, "sunset_h", 0.0, 24.0, &summary->sunset_h);
     scene_table_number(t, "high_noon_transmission", 0.0, 1.0, &summary->high_noon_transmission);
@@ -168,7 +169,8 @@ void scene_read_weather(scene_reader *reader)
     read_summary(&t, &summary);
     scene_table_close(&t);
     if (reader->failure_count == failures)
-        scene_took(reader, weather_synthesise(&reader->s->history, &summary, &reader->s->place));
+        scene_took_at(reader, node,
+                      weather_synthesise(&reader->s->history, &summary, &reader->s->place));
 }
 
 static void read_uniform(scene_reader *reader, const toml_node *node)

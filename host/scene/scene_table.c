@@ -2,6 +2,7 @@
 
 #include "base/array.h"
 #include "base/spelling.h"
+#include "base/terminal_text.h"
 
 #include <assert.h>
 #include <errno.h>
@@ -17,10 +18,11 @@ void scene_fail(scene_reader *reader, const toml_node *node, const char *format,
     char text[2048];
     va_list arguments;
 
+    reader->failure_count++;
+    if (reader->ending) return;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    reader->failure_count++;
     status_keep(
         status_set(STATUS_FORMAT, "%s: %s", node ? toml_node_where(node) : reader->s->path, text));
 }
@@ -29,7 +31,16 @@ bool scene_took(scene_reader *reader, status rc)
 {
     if (rc == STATUS_OK) return true;
     reader->failure_count++;
-    status_keep(rc);
+    if (!reader->ending) status_keep(rc);
+    if (rc == STATUS_MEMORY || rc == STATUS_INTERRUPTED) reader->ending = rc;
+    return false;
+}
+
+bool scene_took_at(scene_reader *reader, const toml_node *node, status rc)
+{
+    if (rc == STATUS_OK || rc == STATUS_MEMORY || rc == STATUS_INTERRUPTED)
+        return scene_took(reader, rc);
+    scene_fail(reader, node, "%s", status_last());
     return false;
 }
 
@@ -90,8 +101,10 @@ bool scene_table_whole(scene_table *t, const char *key, double low, double high,
     double value = 0.0;
 
     if (!scene_table_number(t, key, low, high, &value)) return false;
-    *out = value;
-    if (value == floor(value)) return true;
+    if (value == floor(value)) {
+        *out = value;
+        return true;
+    }
     const toml_node *node = toml_node_get(t->node, key);
     scene_fail(t->reader, node, "%s: found %g, expected a whole number", toml_node_name(node),
                value);
@@ -120,6 +133,21 @@ bool scene_table_numbers(scene_table *t, const char *key, size_t count, double l
     return true;
 }
 
+bool scene_table_whole_numbers(scene_table *t, const char *key, size_t count, double low,
+                               double high, double *out)
+{
+    const toml_node *node = toml_node_get(t->node, key);
+
+    if (!scene_table_numbers(t, key, count, low, high, out)) return false;
+    for (size_t i = 0; i < count; i++) {
+        if (out[i] == floor(out[i])) continue;
+        scene_fail(t->reader, node, "%s: found %s, expected whole numbers", toml_node_name(node),
+                   toml_node_text(node));
+        return false;
+    }
+    return true;
+}
+
 bool scene_table_string(scene_table *t, const char *key, const char **out)
 {
     char message[512];
@@ -129,6 +157,23 @@ bool scene_table_string(scene_table *t, const char *key, const char **out)
     if (!took_value(t, toml_node_string(out, node, message, sizeof message), message)) return false;
     if (**out) return true;
     scene_fail(t->reader, node, "%s: is empty", toml_node_name(node));
+    return false;
+}
+
+static bool is_name(const char *text)
+{
+    return terminal_text_is_clean(text) && !strchr(text, '\t') && strlen(text) <= SCENE_NAME_LENGTH;
+}
+
+bool scene_table_name(scene_table *t, const char *key, const char *not_in_it, const char *expected,
+                      const char **out)
+{
+    if (!scene_table_string(t, key, out)) return false;
+    if (is_name(*out) && !strpbrk(*out, not_in_it)) return true;
+    const toml_node *node = toml_node_get(t->node, key);
+    scene_fail(t->reader, node,
+               "%s: found %s, expected %s, without control characters, of at most %d bytes",
+               toml_node_name(node), toml_node_text(node), expected, SCENE_NAME_LENGTH);
     return false;
 }
 

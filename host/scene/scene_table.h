@@ -11,6 +11,7 @@ typedef struct scene_reader {
     scene *s;
     const toml_node *root;
     int failure_count;
+    status ending; /* STATUS_MEMORY, STATUS_INTERRUPTED: what fails then is told no more */
 } scene_reader;
 
 enum { SCENE_TABLE_KEYS = 64 };
@@ -22,12 +23,19 @@ typedef struct scene_table {
     int asked_count;
 } scene_table;
 
+/* Bytes of the longest name of a scene, a band or a material: the file `SCENE_PLANE.png` can exist, and
+ * no header, legend or channel cuts it. */
+enum { SCENE_NAME_LENGTH = 100 };
+
 /* Keeps a failure `where: ...` for a node, or for the file where node is NULL. */
 __attribute__((format(printf, 3, 4))) void scene_fail(scene_reader *reader, const toml_node *node,
                                                       const char *format, ...);
 
 /* Keeps the failure of another room's reader, if rc is one; returns true if it is STATUS_OK. */
 bool scene_took(scene_reader *reader, status rc);
+
+/* The same for a failure that names no file: it is told at a node. */
+bool scene_took_at(scene_reader *reader, const toml_node *node, status rc);
 
 /* Opens a table; a value of another kind is a failure. node may be NULL. */
 scene_table scene_table_open(scene_reader *reader, const toml_node *node, const char *name);
@@ -41,7 +49,12 @@ bool scene_table_number(scene_table *t, const char *key, double low, double high
 bool scene_table_whole(scene_table *t, const char *key, double low, double high, double *out);
 bool scene_table_numbers(scene_table *t, const char *key, size_t count, double low, double high,
                          double *out);
+bool scene_table_whole_numbers(scene_table *t, const char *key, size_t count, double low,
+                               double high, double *out);
 bool scene_table_string(scene_table *t, const char *key, const char **out);
+/* A name that is not too long, without control characters and those in `not_in_it`; `expected` says so. */
+bool scene_table_name(scene_table *t, const char *key, const char *not_in_it, const char *expected,
+                      const char **out);
 bool scene_table_bool(scene_table *t, const char *key, bool *out);
 /* One of `count` words; sets its index. */
 bool scene_table_word(scene_table *t, const char *key, const char *const *words, int count,

@@ -5,12 +5,16 @@
 #include "files/record_file.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
 #define DEGREES (M_PI / 180.0)
 
 static const double film_width_mm = 36.0, angle_tolerance_deg = 0.1;
+
+bool view_fits(int columns, int rows)
+{
+    return (int64_t)columns * rows <= VIEW_PIXELS;
+}
 
 static void to_enu(const double north_west_up[3], double out[3])
 {
@@ -42,8 +46,8 @@ static status read_pixels(view *v, record_file *file)
 
     TRY(record_file_numbers(file, 2, pixels, "the numbers of columns and rows"));
     for (int i = 0; i < 2; i++) {
-        if (pixels[i] >= 1.0 && pixels[i] <= 65536.0 && pixels[i] == floor(pixels[i])) continue;
-        rc = record_file_reject(file, "columns and rows, whole numbers from 1 to 65536");
+        if (pixels[i] >= 1.0 && pixels[i] <= VIEW_SIDE && pixels[i] == floor(pixels[i])) continue;
+        rc = record_file_reject(file, "columns and rows, whole numbers from 1 to %d", VIEW_SIDE);
         goto out;
     }
     v->columns = (int)pixels[0];

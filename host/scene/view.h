@@ -5,11 +5,18 @@
 #include "base/status.h"
 #include "kernels/records.h"
 
+#include <stdbool.h>
+#include <stdint.h>
+
 /* A frame of which the picture is the part from (column, row) on; columns 0: the picture is all. */
 typedef struct view_crop {
     int column, row;
     int columns, rows; /* of the frame */
 } view_crop;
+
+/* Pixels of a picture, and of one of its sides, at most. */
+#define VIEW_PIXELS INT32_MAX
+enum { VIEW_SIDE = 1 << 20 };
 
 typedef struct view {
     double position_m[3], target_m[3]; /* ENU; they differ */
@@ -19,6 +26,9 @@ typedef struct view {
     view_crop crop; /* what the picture is a part of */
     double width_m; /* orthographic: across the frame's columns; 0: perspective */
 } view;
+
+/* Whether a picture, or the frame that it is a part of, has at most VIEW_PIXELS. */
+bool view_fits(int columns, int rows);
 
 /* Reads an .adv file and turns it from the axes of 1994 (+x north, +y west) to ENU. Its elevation
  * and azimuth repeat what target and position say: more than .1 degree apart is a warning. */

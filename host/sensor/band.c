@@ -129,6 +129,13 @@ out:
     return rc;
 }
 
+void band_free(band *b)
+{
+    free(b->name);
+    response_free(b->tabulated);
+    response_file_free(b->sensor);
+}
+
 void band_samples_free(band_samples *samples)
 {
     free(samples->wavenumber_cm1);

@@ -19,6 +19,9 @@ typedef struct band {
     uint32_t table;         /* index of the [[band]] that states it */
 } band;
 
+/* Frees what a band owns. */
+void band_free(band *b);
+
 /* The samples of a band: where spectra are evaluated and what each counts. */
 typedef struct band_samples {
     int count;

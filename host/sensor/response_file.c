@@ -16,7 +16,7 @@ static status read_values(response_file *s, record_file *file)
     TRY(record_file_number(file, -1e30, 1e30, &s->offset, "the offset"));
     s->gain *= PER_CM2;
     s->response = malloc((size_t)count * sizeof *s->response);
-    NEED(s->response, STATUS_MEMORY, "%ld responses", count);
+    NEED(s->response, STATUS_MEMORY, "no memory for %ld responses", count);
     for (; s->count < count; s->count++)
         TRY(record_file_number(file, 0.0, 1.0, &s->response[s->count], "a response"));
 out:
@@ -45,7 +45,7 @@ status response_file_read(response_file **out, const char *path)
     record_file *file = NULL;
     response_file *s = calloc(1, sizeof *s);
 
-    NEED(s, STATUS_MEMORY, "sensor");
+    NEED(s, STATUS_MEMORY, "no memory for a sensor");
     TRY(record_file_open(&file, path));
     TRY(read_values(s, file));
     TRY(pass_surplus(file, path, s->count));

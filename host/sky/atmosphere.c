@@ -4,6 +4,7 @@
 #include "files/record_file.h"
 #include "sky/atmosphere_container.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +27,8 @@ static status allocate(double **out, size_t count)
 {
     *out = malloc(count * sizeof **out);
     return *out ? STATUS_OK
-                : status_set(STATUS_MEMORY, "%zu numbers of a radiance database", count);
+                : status_set(STATUS_MEMORY, "no memory for %zu numbers of a radiance database",
+                             count);
 }
 
 static status read_row(record_file *file, const column *columns, size_t count, size_t row,
@@ -244,10 +246,10 @@ static status enlarge_sky(atmosphere *a, int directions)
     double *emitted, *scattered;
 
     emitted = realloc(a->sky_emitted_direction, size);
-    NEED(emitted, STATUS_MEMORY, "sky radiance of %d directions", directions);
+    NEED(emitted, STATUS_MEMORY, "no memory for the sky radiance of %d directions", directions);
     a->sky_emitted_direction = emitted;
     scattered = realloc(a->sky_scattered_direction, size);
-    NEED(scattered, STATUS_MEMORY, "sky radiance of %d directions", directions);
+    NEED(scattered, STATUS_MEMORY, "no memory for the sky radiance of %d directions", directions);
     a->sky_scattered_direction = scattered;
 out:
     return rc;
@@ -327,7 +329,7 @@ status atmosphere_read(atmosphere **out, const char *path)
 
     if (atmosphere_container_is(path)) return atmosphere_container_read(out, path);
     a = calloc(1, sizeof *a);
-    NEED(a, STATUS_MEMORY, "radiance database");
+    NEED(a, STATUS_MEMORY, "no memory for a radiance database");
     TRY(record_file_open(&file, path));
     TRY(record_file_header(file, &a->header));
     TRY(record_file_number(file, 0.0, 1000.0, &altitude_km, "the sensor altitude in km"));
@@ -339,6 +341,10 @@ status atmosphere_read(atmosphere **out, const char *path)
     TRY(read_sky(a, file));
     TRY(read_directions(a, file));
     TRY(read_levels(a, file));
+    NEED(record_file_is_whole(file), STATUS_FORMAT,
+         "%s:%d: the file ends within the line, expected "
+         "its line end: a number may be cut",
+         path, record_file_line(file));
     *out = a;
     a = NULL;
 out:
@@ -403,6 +409,25 @@ static void write_all(FILE *stream, const atmosphere *a)
                 a->level_temperature_k[i]);
 }
 
+/* The file has no name yet that a reader could open, but its descriptor has. */
+status atmosphere_check_file(output_file *file)
+{
+    status rc = STATUS_OK;
+    FILE *stream = output_file_stream(file);
+    char path[32], reason[1024];
+    atmosphere *a = NULL;
+
+    NEED(fflush(stream) == 0, STATUS_FILE, "%s: %s", output_file_path(file), strerror(errno));
+    snprintf(path, sizeof path, "/proc/self/fd/%d", fileno(stream));
+    rc = atmosphere_read(&a, path);
+    if (rc == STATUS_OK || strncmp(status_last(), path, strlen(path)) != 0) goto out;
+    snprintf(reason, sizeof reason, "%s", status_last() + strlen(path));
+    rc = status_set(rc, "%s%s", output_file_path(file), reason);
+out:
+    atmosphere_free(a);
+    return rc;
+}
+
 status atmosphere_write(const atmosphere *a, const char *path)
 {
     status rc = STATUS_OK;
@@ -410,6 +435,7 @@ status atmosphere_write(const atmosphere *a, const char *path)
 
     TRY(output_file_open(&file, path));
     write_all(output_file_stream(file), a);
+    TRY(atmosphere_check_file(file));
     TRY(output_file_commit(file));
 out:
     output_file_free(file);

@@ -4,6 +4,7 @@
 #define ATMOSPHERE_H
 
 #include "base/status.h"
+#include "files/output_file.h"
 
 /* Spectra are in W m-2 sr-1 um-1 (the solar irradiance W m-2 um-1), n = point_count, and ascend in
  * wavelength. In shapes the last axis runs fastest. */
@@ -51,7 +52,11 @@ typedef struct atmosphere {
  * negative or above 1 W cm-2 sr-1 um-1, or a grid is uneven or incomplete. */
 status atmosphere_read(atmosphere **out, const char *path);
 
-/* Writes a .rad file, seven digits a number, without what a container alone has; the old file stays if writing fails. */
+/* Fails, with the reader's reason, if a file that is written and not committed yet is no database. */
+status atmosphere_check_file(output_file *file);
+
+/* Writes a .rad file, seven digits a number, without what a container alone has; the old file stays if writing fails, or if
+ * atmosphere_read would refuse the new one. */
 status atmosphere_write(const atmosphere *a, const char *path);
 
 void atmosphere_free(atmosphere *a);

@@ -375,6 +375,7 @@ status atmosphere_container_write(const atmosphere *a, const char *path)
             const float value = (float)(*blocks[i].at)[k];
             fwrite(&value, sizeof value, 1, output_file_stream(file));
         }
+    TRY(atmosphere_check_file(file));
     TRY(output_file_commit(file));
 out:
     output_file_free(file);

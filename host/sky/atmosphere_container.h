@@ -14,7 +14,7 @@ bool atmosphere_container_is(const char *path);
 /* Reads a container; fails with STATUS_FORMAT as atmosphere_read does. */
 status atmosphere_container_read(atmosphere **out, const char *path);
 
-/* Writes one; the old file stays if writing fails. */
+/* Writes one, as atmosphere_write does. */
 status atmosphere_container_write(const atmosphere *a, const char *path);
 
 #endif

@@ -300,9 +300,9 @@ status card_deck_text(char **out, const card_deck *deck, int after)
     const size_t count = card_list(deck, after, cards);
     FILE *stream = open_memstream(&text, &length);
 
-    NEED(stream, STATUS_MEMORY, "the text of a card deck");
+    NEED(stream, STATUS_MEMORY, "no memory for the text of a card deck");
     for (size_t i = 0; i < count; i++) write_card(stream, deck, &cards[i]);
-    NEED(fclose(stream) == 0, STATUS_MEMORY, "the text of a card deck");
+    NEED(fclose(stream) == 0, STATUS_MEMORY, "no memory for the text of a card deck");
     *out = text;
     text = NULL;
 out:

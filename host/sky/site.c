@@ -113,7 +113,8 @@ status site_parse_time(const char *iso, double *time_s, int *utc_offset_min)
 
     NEED(take_date(&text, &days) && take(&text, "Tt ") && take_clock(&text, &seconds) &&
              take_offset(&text, utc_offset_min) && *text == '\0',
-         STATUS_ARGUMENT, "'%.60s' is no time, expected one such as 1987-06-24T10:00:00-05:00",
+         STATUS_ARGUMENT,
+         "time: found '%.60s', expected one from 1600 to 9999 such as 1987-06-24T10:00:00-05:00",
          iso);
     *time_s = (double)days * DAY_S + seconds - *utc_offset_min * MINUTE_S;
 out:

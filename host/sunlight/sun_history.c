@@ -35,12 +35,12 @@ static void set_suns(float (*sun)[4], const sun_day *day, const site *place, dou
 static sun_day day_of(const site *place, double origin_s, double step_s)
 {
     const double position = (place->time_s - origin_s) / step_s;
-    const uint32_t slots = (uint32_t)lround(86400.0 / step_s);
+    const long slots = lround(86400.0 / step_s), nearest = lround(floor(position + 0.5));
 
     return (sun_day){
-        .slot_count = slots,
-        .word_count = (slots + 31) / 32,
-        .nearest = (uint32_t)((uint64_t)floor(position + 0.5) % slots),
+        .slot_count = (uint32_t)slots,
+        .word_count = (uint32_t)(slots + 31) / 32,
+        .nearest = (uint32_t)((nearest % slots + slots) % slots),
         .since_min = (float)((position - floor(position + 0.5)) * step_s / 60.0),
         .step_min = (float)(step_s / 60.0),
     };

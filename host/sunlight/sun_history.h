@@ -11,7 +11,7 @@
 typedef struct sun_history sun_history;
 
 /* Computes where the sun stood. The last step is the first at or after the site's time.
- *   origin_s   UTC time in seconds of step 0, before the site's time
+ *   origin_s   UTC time in seconds of step 0, before the site's time or after it
  *   step_s     divides an hour
  *   dimming    bodies that let a fraction of the sun through, which is told behind the bits; NULL:
  *              none

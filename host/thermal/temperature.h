@@ -23,7 +23,8 @@ typedef struct temperature_scene {
 
 /* Computes the facets' temperatures: stated ones, or from the weather: in thesis mode with the sun
  * on them whenever it shines, in exact mode the mean over points of their area, each with its own sun
- * and shadow. The device must outlive it. */
+ * and shadow. The device must outlive it. Fails with STATUS_ARGUMENT, and the facet's name, where none
+ * can have its temperature. */
 status temperature_open(temperature_solver **out, device *dev, const temperature_scene *from);
 void temperature_free(temperature_solver *t);
 

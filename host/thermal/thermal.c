@@ -4,6 +4,7 @@
 #include "kernels/thermal/thermal.h"
 #include "sky/sun.h"
 #include "thermal/thermal_model.h"
+#include "thermal/value_check.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -339,17 +340,24 @@ out:
 status thermal_histories(const thermal *t, const facet_record *facet, size_t count,
                          float *out_temperature_k)
 {
+    status rc = STATUS_OK;
     const batch b = {.facet = (facet_record *)facet, .count = count};
     const thermal_span span = {.row_count = (uint)t->step_count, .weight = 1.0f};
 
-    return compute(t, &b, span, out_temperature_k);
+    TRY(compute(t, &b, span, out_temperature_k));
+    for (size_t i = 0; i < t->step_count * count; i++)
+        NEED(value_check_kelvin(out_temperature_k[i]), STATUS_ARGUMENT,
+             "facet %zu: found a temperature of %g K at step %zu of the weather, expected %s",
+             i % count, (double)out_temperature_k[i], i / count, VALUE_CHECK_RANGE);
+out:
+    return rc;
 }
 
 status thermal_day(const thermal *t, const thermal_subject *subject, long last,
                    float *out_temperature_k)
 {
     status rc = STATUS_OK;
-    facet_record one = subject->facet[0];
+    facet_record one = key_of(&subject->facet[0]);
     const batch b = {.facet = &one,
                      .lit = (uint32_t *)subject->lit,
                      .count = 1,

@@ -44,7 +44,8 @@ typedef struct thermal_subject {
  * Fails with STATUS_ARGUMENT where the weather does not cover the site's time. */
 status thermal_at_time(const thermal *t, const thermal_subject *subject, float *out_temperature_k);
 
-/* Computes the temperatures at the slot_count steps of the weather that end with step `last`.
+/* Computes the temperatures at the slot_count steps of the weather that end with step `last`, the same
+ * bits as thermal_at_time gives at a step.
  *   subject             count 1, with lit
  *   out_temperature_k   shape (slot_count); NAN where the weather has no such step */
 status thermal_day(const thermal *t, const thermal_subject *subject, long last,
@@ -52,7 +53,8 @@ status thermal_day(const thermal *t, const thermal_subject *subject, long last,
 
 /* Computes the temperatures of facets at every step of the weather, always lit.
  *   facet               shape (count)
- *   out_temperature_k   shape (weather's count, count) */
+ *   out_temperature_k   shape (weather's count, count)
+ * Fails with STATUS_ARGUMENT where no surface can have a temperature. */
 status thermal_histories(const thermal *t, const facet_record *facet, size_t count,
                          float *out_temperature_k);
 

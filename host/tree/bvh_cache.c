@@ -1,5 +1,6 @@
 #include "tree/bvh_cache.h"
 
+#include "base/interrupt.h"
 #include "files/cache_folder.h"
 #include "files/output_file.h"
 
@@ -15,6 +16,8 @@
 #ifndef BVH_LAYOUT
 #error "the Makefile defines BVH_LAYOUT, a hash of the sources that decide what a tree is made of"
 #endif
+
+enum { PORTION = 1 << 24 }; /* bytes */
 
 /* What a file begins with; nodes and blocks follow. Numbers are in the machine's order. */
 typedef struct header {
@@ -62,6 +65,26 @@ static uint64_t check_of(const header *h, const bvh_tables *t)
     return XXH3_64bits_digest(&state);
 }
 
+/* Reads so many bytes; false if there are fewer, and after an interrupt. */
+static bool read_all(FILE *file, void *out, size_t size)
+{
+    for (size_t at = 0; at < size; at += PORTION) {
+        const size_t some = size - at < PORTION ? size - at : PORTION;
+        if (interrupt_is_set() || fread((char *)out + at, some, 1, file) != 1) return false;
+    }
+    return true;
+}
+
+static bool write_all(FILE *file, const void *bytes, size_t size)
+{
+    for (size_t at = 0; at < size; at += PORTION) {
+        const size_t some = size - at < PORTION ? size - at : PORTION;
+        if (interrupt_is_set() || fwrite((const char *)bytes + at, some, 1, file) != 1)
+            return false;
+    }
+    return true;
+}
+
 static off_t file_size(const header *h)
 {
     return (off_t)(sizeof *h + h->node_count * sizeof(bvh_node) +
@@ -93,8 +116,8 @@ static bool read_tree(bvh **out, FILE *file, const header *h)
     memcpy(tables.low, h->low, sizeof h->low);
     memcpy(tables.high, h->high, sizeof h->high);
     if (bvh_restore(&tree, &tables, &node, &block) != STATUS_OK) return false;
-    const bool is_whole = fread(node, sizeof *node, h->node_count, file) == h->node_count &&
-                          fread(block, sizeof *block, h->block_count, file) == h->block_count &&
+    const bool is_whole = read_all(file, node, h->node_count * sizeof *node) &&
+                          read_all(file, block, h->block_count * sizeof *block) &&
                           check_of(h, bvh_look(tree)) == h->check;
     if (is_whole)
         *out = tree;
@@ -125,9 +148,9 @@ static bool load(bvh **out, const char *path, const XXH128_canonical_t *key)
 
 static bool write_tree(FILE *file, const header *h, const bvh_tables *t)
 {
-    return fwrite(h, sizeof *h, 1, file) == 1 &&
-           fwrite(t->node, sizeof *t->node, t->node_count, file) == t->node_count &&
-           fwrite(t->block, sizeof *t->block, t->block_count, file) == t->block_count;
+    return write_all(file, h, sizeof *h) &&
+           write_all(file, t->node, t->node_count * sizeof *t->node) &&
+           write_all(file, t->block, t->block_count * sizeof *t->block);
 }
 
 /* Others see a whole file or none. */
@@ -163,6 +186,7 @@ status bvh_cache_build(bvh **out, const bvh_source *source)
         is_kept = find_file(folder, path, &key);
     }
     if (is_kept && load(out, path, &key)) goto out;
+    TRY(interrupt_check());
     TRY(bvh_build(out, source));
     if (is_kept) store(bvh_look(*out), folder, path, &key);
 out:

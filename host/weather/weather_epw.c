@@ -117,6 +117,12 @@ out:
     return rc;
 }
 
+/* The most days of a month in any year. */
+static int most_days(int month)
+{
+    return month == 2 ? 29 : month == 4 || month == 6 || month == 9 || month == 11 ? 30 : 31;
+}
+
 static status take_whole(const epw *e, const char *text, const char *name, int low, int high,
                          int *out)
 {
@@ -139,7 +145,7 @@ static status take_time(epw *e, char *const *field, double *out_s)
 
     TRY(take_whole(e, field[0], "a year", 1800, 2200, &year));
     TRY(take_whole(e, field[1], "a month", 1, 12, &month));
-    TRY(take_whole(e, field[2], "a day", 1, 31, &day));
+    TRY(take_whole(e, field[2], "a day of the month", 1, most_days(month), &day));
     TRY(take_whole(e, field[3], "an hour", 1, 24, &hour));
     e->stated_year = e->stated_year == 0 || e->stated_year == year ? year : -1;
     *out_s = INFINITY;

@@ -65,18 +65,36 @@ out:
     return rc;
 }
 
+/* Whether year, month, day, hour and minute are those of a date; the third number is the day of the
+ * year. */
+static bool is_time(const double number[NUMBERS], struct tm *out)
+{
+    static const struct {
+        double low, high;
+    } range[] = {{1990, 2200}, {1, 366}, {1, 12}, {1, 31}, {0, 23}, {0, 59}};
+    struct tm when;
+
+    for (size_t i = 0; i < sizeof range / sizeof *range; i++)
+        if (!(number[i] >= range[i].low && number[i] <= range[i].high) ||
+            number[i] != floor(number[i]))
+            return false;
+    when = (struct tm){.tm_year = (int)number[0] - 1900,
+                       .tm_mon = (int)number[2] - 1,
+                       .tm_mday = (int)number[3],
+                       .tm_hour = (int)number[4],
+                       .tm_min = (int)number[5]};
+    *out = when;
+    timegm(&when);
+    return when.tm_mday == out->tm_mday; /* the month has such a day */
+}
+
 static status take_time(const surfrad *s, const double number[NUMBERS], double *out_s)
 {
     status rc = STATUS_OK;
     const weather_series *series = &s->series;
-    struct tm when = {.tm_year = (int)number[0] - 1900,
-                      .tm_mon = (int)number[2] - 1,
-                      .tm_mday = (int)number[3],
-                      .tm_hour = (int)number[4],
-                      .tm_min = (int)number[5]};
+    struct tm when;
 
-    if (number[0] < 1990 || number[0] > 2200 || number[2] < 1 || number[2] > 12 || number[3] < 1 ||
-        number[3] > 31 || number[4] < 0 || number[4] > 23 || number[5] < 0 || number[5] > 59)
+    if (!is_time(number, &when))
         TRY(record_file_reject(s->file, "year, day of the year, month, day, hour, minute"));
     *out_s = (double)timegm(&when);
     if (series->count > 0 && *out_s <= series->sample[series->count - 1].end_s)

@@ -76,16 +76,20 @@ static double stated_or(double value, double otherwise)
     return isnan(value) ? otherwise : value;
 }
 
+/* The constant is single, what is stated in C may have been turned by a double one. */
+#define CELSIUS_SLACK 1e-4
+
 static status check_summary(const weather_summary *s)
 {
     status rc = STATUS_OK;
+    const double least_c = WEATHER_LEAST_C - CELSIUS_SLACK, most_c = WEATHER_MOST_C + CELSIUS_SLACK;
     const struct {
         const char *name;
         double value, low, high;
     } range[] = {
-        {"air temperature at sunrise in C", s->air_temperature_sunrise_k - KELVIN, -100.0, 70.0},
+        {"air temperature at sunrise in C", s->air_temperature_sunrise_k - KELVIN, least_c, most_c},
         {"air temperature at its peak in C", s->air_temperature_peak_k - KELVIN,
-         s->air_temperature_sunrise_k - KELVIN, 70.0},
+         s->air_temperature_sunrise_k - KELVIN, most_c},
         {"time of the peak in h", s->peak_time_h, 0.0, 24.0},
         {"relative humidity at sunrise", s->relative_humidity_sunrise, 0.0, 1.0},
         {"wind speed in m/s", s->wind_m_s, 0.0, 100.0},
@@ -93,7 +97,8 @@ static status check_summary(const weather_summary *s)
         {"sky exposure", s->sky_exposure, 0.0, 1.0},
         {"cloud type", s->cloud_type, 0.0, WEATHER_CLOUD_TYPES - 1},
         {"rain in mm/h", s->rain_m_s * 3.6e6, 0.0, 1000.0},
-        {"rain temperature in C", stated_or(s->rain_temperature_k, KELVIN) - KELVIN, -100.0, 70.0},
+        {"rain temperature in C", stated_or(s->rain_temperature_k, KELVIN) - KELVIN, least_c,
+         most_c},
         {"time of sunrise in h", stated_or(s->sunrise_h, 0.0), 0.0, 24.0},
         {"time of sunset in h", stated_or(s->sunset_h, 24.0), stated_or(s->sunrise_h, 0.0), 24.0},
         {"transmission at high noon", stated_or(s->high_noon_transmission, 1.0), 0.0, 1.0},
@@ -101,8 +106,8 @@ static status check_summary(const weather_summary *s)
 
     for (size_t i = 0; i < sizeof range / sizeof *range; i++)
         NEED(range[i].value >= range[i].low && range[i].value <= range[i].high, STATUS_ARGUMENT,
-             "weather: %s: expected %.4g to %.4g, not %.4g", range[i].name, range[i].low,
-             range[i].high, range[i].value);
+             "weather: %s: found %.4g, expected %.4g to %.4g", range[i].name, range[i].value,
+             range[i].low, range[i].high);
 out:
     return rc;
 }

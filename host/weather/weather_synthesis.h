@@ -5,6 +5,10 @@
 #include "sky/site.h"
 #include "weather/weather.h"
 
+/* Air and rain. */
+#define WEATHER_LEAST_C (-100.0)
+#define WEATHER_MOST_C 70.0
+
 typedef struct weather_summary {
     double air_temperature_sunrise_k;
     double air_temperature_peak_k;

@@ -9,6 +9,8 @@
 /* assumed: what absorbs in the air falls off by e in this height. */
 #define AIR_HEIGHT_M 2000.0f
 #define AIR_LEVEL_UP 0.17364818f /* sine of 10 degrees */
+#define AIR_SCALES 80.0f         /* e to it is a float still */
+#define AIR_DEEPEST 60.0f        /* heights below 0, beyond which no denser air is counted */
 
 /* Where the terms of a ray come from. */
 #define AIR_BY_ZENITH 0u   /* the whole path from the ground; a part of it by what absorbs */
@@ -35,10 +37,17 @@ static inline uint air_kind(const air_record *air, uint thesis, float up)
     return air->altitude_count > 0u && up < 0.0f ? AIR_BY_ALTITUDE : AIR_BY_ZENITH;
 }
 
-/* Length of the level way at z 0 that holds as much of what absorbs, m. */
+/* Length of the level way at z 0 that holds as much of what absorbs, m. Far down exp(-scales) overflows:
+ * then both ends are taken by their own heights. */
 static inline float air_level_m(float z_m, float up, float range_m)
 {
     const float scales = up * range_m / AIR_HEIGHT_M;
+    const float low = z_m / AIR_HEIGHT_M + scales;
+
+    if (scales < -AIR_SCALES)
+        return range_m *
+               (exp(-(low > -AIR_DEEPEST ? low : -AIR_DEEPEST)) - exp(-z_m / AIR_HEIGHT_M)) /
+               -scales;
     const float mean = fabs(scales) < 1e-3f ? 1.0f - 0.5f * scales : (1.0f - exp(-scales)) / scales;
 
     return range_m * mean * exp(-z_m / AIR_HEIGHT_M);
@@ -47,7 +56,10 @@ static inline float air_level_m(float z_m, float up, float range_m)
 /* The fraction of the air up to the way's end that lies before `range_m`. */
 static inline float air_fraction(air_way way, float range_m)
 {
+    const float fall = -way.up * way.limit_m / AIR_HEIGHT_M;
+
     if (!(way.limit_m < INFINITY)) return 0.0f;
+    if (fall > AIR_SCALES) return exp(-way.up * range_m / AIR_HEIGHT_M - fall);
     return air_level_m(0.0f, way.up, range_m) / air_level_m(0.0f, way.up, way.limit_m);
 }
 

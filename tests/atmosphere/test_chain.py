@@ -52,8 +52,8 @@ def run_chain(atmosphere, tmp_path):
     """Runs a deck; returns a database for each file."""
     def run(deck):
         (tmp_path / "chain.cdk").write_text(deck)
-        atmosphere("deck", tmp_path / "chain.cdk", "-o", tmp_path / "out.rad")
-        paths = sorted(tmp_path.glob("out*.rad"), key=lambda path: (len(path.name), path.name))
+        atmosphere("deck", tmp_path / "chain.cdk", "-o", tmp_path / "out.runs")
+        paths = sorted(tmp_path.glob("out*.runs"), key=lambda path: (len(path.name), path.name))
         return [radiance_database.read(path) for path in paths]
 
     return run
@@ -127,10 +127,10 @@ sample_step_cm1 = 500.0
     texts = [path.read_text() for path in decks]
     chain = "".join(text[: text.rindex("    0\n")] + "    1\n" for text in texts[:-1]) + texts[-1]
     (tmp_path / "chain.cdk").write_text(chain)
-    atmosphere("deck", *decks, "-o", tmp_path / "one_by_one.rad")
-    atmosphere("deck", tmp_path / "chain.cdk", "-o", tmp_path / "chain.rad")
+    atmosphere("deck", *decks, "-o", tmp_path / "one_by_one.runs")
+    atmosphere("deck", tmp_path / "chain.cdk", "-o", tmp_path / "chain.runs")
     numbers = [[line for line in (tmp_path / name).read_text().splitlines() if line[0] != "#"]
-               for name in ("one_by_one.rad", "chain.rad")]
+               for name in ("one_by_one.runs", "chain.runs")]
 
     assert numbers[0] == numbers[1]
 

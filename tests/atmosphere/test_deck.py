@@ -24,8 +24,8 @@ def run_deck(atmosphere, folder, *decks):
     for i, text in enumerate(decks):
         paths.append(folder / f"{i}.cdk")
         paths[-1].write_text(text)
-    atmosphere("deck", *paths, "-o", folder / "out.rad")
-    return radiance_database.read(folder / "out.rad")
+    atmosphere("deck", *paths, "-o", folder / "out.runs")
+    return radiance_database.read(folder / "out.runs")
 
 
 @pytest.mark.parametrize("direction", printed.SKY)
@@ -82,6 +82,38 @@ def test_a_deck_that_ends_early_is_explained(atmosphere, tmp_path):
     done = atmosphere("deck", path, "-o", tmp_path / "out.rad", code=1)
 
     assert "0.cdk" in done.stderr
+
+
+def test_decks_of_a_whole_sky_and_one_path_make_a_database(atmosphere, tmp_path):
+    # the printed sky, and the printed deck as a path from 10 km straight down
+    path = printed.deck(180, 0).replace("F  2   3   2", "F  2   2   2").replace(
+        "   0.000   0.000 180.000", "  10.000   0.000 180.000")
+    decks = [printed.deck(z, a) for z, a in itertools.product(range(0, 91, 15), range(0, 361, 30))]
+    paths = []
+    for i, text in enumerate([path, *decks]):
+        paths.append(tmp_path / f"{i}.cdk")
+        paths[-1].write_text(text)
+
+    atmosphere("deck", *paths, "-o", tmp_path / "out.rad")
+
+    assert "1 paths from zenith angle 0 to 0 degrees" in atmosphere("show", tmp_path / "out.rad").stdout
+
+
+def test_decks_that_fill_no_database_make_no_rad(atmosphere, tmp_path):
+    (tmp_path / "0.cdk").write_text(UNPRINTED)
+    done = atmosphere("deck", tmp_path / "0.cdk", "-o", tmp_path / "out.rad", code=1)
+
+    assert "out.rad:" in done.stderr and "the decks do not fill a radiance database" in done.stderr
+    assert not (tmp_path / "out.rad").exists()
+
+
+@pytest.mark.parametrize("count", ["1e22", "1.5", "-99999999"])
+def test_a_field_that_counts_cards_is_a_whole_number_of_its_columns(atmosphere, tmp_path, count):
+    (tmp_path / "0.cdk").write_text(UNPRINTED.replace("    3    2    2    1", "    7    2    2    1").replace(
+        "    0    1  -1.000", "    1    1  -1.000").replace(" 4.000     0.200   130", f"{count} 0 0\n 4.000     0.200   130"))
+    done = atmosphere("deck", tmp_path / "0.cdk", "-o", tmp_path / "out.rad", code=1)
+
+    assert "0.cdk:3: " in done.stderr and "of them whole" in done.stderr
 
 
 def test_wrong_usage_exits_with_2(atmosphere, tmp_path):

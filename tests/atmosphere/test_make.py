@@ -135,8 +135,8 @@ def isothermal_deck(itype, card_3):
 ])
 def test_an_isothermal_path_emits_what_it_absorbs(atmosphere, tmp_path, itype, card_3):
     (tmp_path / "0.cdk").write_text(isothermal_deck(itype, card_3))
-    atmosphere("deck", tmp_path / "0.cdk", "-o", tmp_path / "out.rad")
-    result = radiance_database.read(tmp_path / "out.rad")
+    atmosphere("deck", tmp_path / "0.cdk", "-o", tmp_path / "out.runs")
+    result = radiance_database.read(tmp_path / "out.runs")
     emitted = result["path"][0][:, 1] if itype == 2 else result["sky"][45, 10][:, 0]
     tau = result["path"][0][:, 0] if itype == 2 else result["tau1"]
 
@@ -151,8 +151,8 @@ def direct_sun(atmosphere, folder, zenith):
         "    1    0    0    1    0    0   100.000     0.000     0.000     0.000     0.000\n"
         f"     0.000     0.000{zenith:10.3f}   94          0.000    0     0.000\n"
         "  2500.000 25000.000    20.000\n    0\n")
-    atmosphere("deck", folder / "0.cdk", "-o", folder / "out.rad")
-    result = radiance_database.read(folder / "out.rad")
+    atmosphere("deck", folder / "0.cdk", "-o", folder / "out.runs")
+    result = radiance_database.read(folder / "out.runs")
     return numpy.trapz(result["sun"] * result["tau1"] * 1e4, result["wavelength"])
 
 
@@ -170,8 +170,8 @@ def test_the_clear_sun_is_that_of_spectrl2(atmosphere, tmp_path, zenith, expecte
 
 def test_a_kept_deck_gives_what_the_database_holds(make, atmosphere):
     result = make(low=800.0, high=900.0, step=5.0, options=["--keep-decks", make.folder / "decks"])
-    atmosphere("deck", make.folder / "decks/sky_45.000_090.000.cdk", "-o", make.folder / "one.rad")
-    one = radiance_database.read(make.folder / "one.rad")
+    atmosphere("deck", make.folder / "decks/sky_45.000_090.000.cdk", "-o", make.folder / "one.runs")
+    one = radiance_database.read(make.folder / "one.runs")
 
     assert (list(one["sky"].values())[0] == result["sky"][45, 90]).all()
 

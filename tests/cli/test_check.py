@@ -112,7 +112,7 @@ def test_a_summary_names_units(program, folder):
     ("pixels = [16, 12]", "pixels = [16, 12.5]", "pixels", "expected whole numbers"),
     ("pixels = [16, 12]", "pixels = [16, 0]", "pixels", "from 1 to"),
     ("[site]", "[site", "[site", ""),
-    ('name = "lwir"', 'name = "lw ir"', "[[band]]", "expected a word"),
+    ('name = "lwir"', 'name = "lw ir"', "lw ir", "expected a word"),
     ("wavelength_um = [8.0, 14.0]", "wavelength_um = [14.0, 8.0]", "wavelength_um",
      "expected the low edge first"),
     ("T13:20:00-04:00", "T13:20:00", "time =", "a date and time with offset"),
@@ -315,3 +315,43 @@ def test_all_keys_of_a_large_table_are_known(program, tmp_path):
     done = program.run("check", program.write_scene(tmp_path, atmosphere=atmosphere))
 
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("name, text, key", [
+    ("psf.csv", "0,1,0\n1,4,1\n0,1,0\n", '[sensor]\npsf = "psf.csv"\n'),
+    ("day.wth", weather_text(), WEATHER)])
+def test_a_byte_order_mark_is_passed_over(program, folder, tmp_path, name, text, key):
+    for each in ("plane.obj", "some.mat", "asphalt.ems"):
+        shutil.copy(folder / each, tmp_path)
+    (tmp_path / name).write_text("\ufeff" + text, encoding="utf-8")
+
+    done = check(program, tmp_path, "\ufeff" + GOOD + key)
+
+    assert done.returncode == 0, done.stderr
+
+
+def test_control_characters_of_files_reach_no_terminal(program, folder):
+    (folder / "bad.mat").write_text(MATERIAL.replace("2.114", "\x1b]0;owned\x07\x1b[2J\r"))
+
+    done = check(program, folder, GOOD.replace("some.mat", "bad.mat"))
+
+    assert done.returncode == 1 and "bad.mat:6: '?]0;owned??[2J'" in done.stderr
+    assert not any(c in done.stderr for c in "\x1b\x07\r")
+
+
+def test_names_of_materials_reach_no_terminal_as_they_are(program, folder):
+    (folder / "odd.obj").write_text(PLANE.replace("wall", "wa\x1bll"))
+    done = check(program, folder, GOOD.replace("plane.obj", "odd.obj"))
+
+    assert done.returncode == 1 and "\x1b" not in done.stderr
+
+
+def test_a_peak_beyond_the_documented_range_is_told_at_its_line(program, folder):
+    weather = ("[weather]\nair_temperature_sunrise_c = 15\nair_temperature_peak_c = {}\n"
+               "peak_time_h = 15\nrelative_humidity_sunrise = 0.9\nwind_m_s = 2\n")
+
+    assert_refused(program, folder, GOOD + weather.format(70.5), "air_temperature_peak_c: found 70.5",
+                   "from -100 to 70")
+    assert_refused(program, folder, GOOD + weather.format(5), f"scene.toml:{line_of(GOOD + weather, '[weather]')}: ",
+                   "weather: air temperature at its peak in C: found 5")
+    assert check(program, folder, GOOD + weather.format(70)).returncode == 0

@@ -148,3 +148,17 @@ def test_a_wrong_table_of_power_is_refused(program, tmp_path, pairs):
     done = program.run("check", program.write_scene(tmp_path, what.pop("meshes"), **what))
 
     assert done.returncode == 1 and "power_w_m2_by_hour" in done.stderr
+
+
+def test_a_history_that_begins_after_the_image_has_the_sun_of_the_day_before_it(program, tmp_path):
+    row = "{:.2f} 20 1013 .6 -1 2 0 0 1 0 0 0 0\n"
+    (tmp_path / "late.wth").write_text("40 .25\n" + "".join(row.format(14.25 + i / 4) for i in range(40)))
+    what = scene(render={"thermal": "fixed"}, material=[
+        {"name": n, "emissivity": .9, "temperature_k": 300.0} for n in ("ground", "box")])
+
+    del what["weather"]
+    late, without = (program.render(tmp_path, "--size", "20x20", **what, **weather).planes
+                     for weather in ({"weather": {"history": "late.wth"}}, {}))
+
+    for name in ("hours_lit_24h", "minutes_since_sun_change"):
+        assert (late[name] == without[name]).all()

@@ -204,3 +204,7 @@ def test_wrong_usage_ends_with_2(arguments):
     done = trace(*arguments)
 
     assert done.returncode == 2 and done.stdout == "" and "--help" in done.stderr
+
+
+def test_a_byte_order_mark_before_the_rays_is_passed_over(plane):
+    assert answers(plane, rays="\ufeff0 0 10 0 0 -1\n") == ["10,0"]

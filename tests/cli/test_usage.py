@@ -116,6 +116,7 @@ def test_a_command_without_its_scene_ends_with_2(program, command):
     (["scene.toml", "-o"], "-o needs a value"),
     (["scene.toml", "-o", ""], "''"),
     (["scene.toml", "-o", "out", "--size", "32"], "'32'"),
+    (["scene.toml", "-o", "out", "--size", "65536x65537"], "'65536x65537'"),
     (["scene.toml", "-o", "out", "--size", "32x32x32"], "'32x32x32'"),
     (["scene.toml", "-o", "out", "--size", "-3x32"], "'-3x32'"),
     (["scene.toml", "-o", "out", "--size=3*2"], "--size: found '3*2', expected COLUMNSxROWS"),

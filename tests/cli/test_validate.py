@@ -76,6 +76,8 @@ def test_a_broken_table_is_refused_at_its_line(program, tmp_path, header, row, m
 @pytest.mark.parametrize("change, message", [
     ({"back": "snow"}, "--back: found 'snow'"), ({"site": None}, "needs --site"),
     ({"surface-resistance-s-m": "50"}, "expected DAY,NIGHT"),
+    ({"surface-resistance-s-m": "50,200x"}, "expected DAY,NIGHT"),
+    ({"surface-resistance-s-m": "50,2e6"}, "expected DAY,NIGHT"),
     ({"model": "therm", "back": "air"}, "need --model layered")])
 def test_wrong_usage_exits_2_and_says_why(program, change, message):
     options = {k: v for k, v in {**ARM, **GRASS, **change}.items() if v is not None}

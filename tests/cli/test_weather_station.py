@@ -156,6 +156,8 @@ def test_weather_of_a_far_place_is_warned_about_by_its_name(program, tmp_path, n
     ("DATA PERIODS,1,1", "DATA PERIODS,1,4", "one record an hour"),
     ("1992,6,22,3,60", "1992,13,22,3,60", "year.epw:35: '1992,13,22,3,60"),
     ("1992,6,22,3,60", "1992,6,22,25,60", "an hour from 1 to 24, not '25'"),
+    ("1992,6,22,3,60", "1992,2,30,3,60", "a day of the month from 1 to 29, not '30'"),
+    ("1992,6,22,3,60", "1992,6,31,3,60", "a day of the month from 1 to 30, not '31'"),
     ("1992,6,22,3,60,?9?9?9E0,11.5", "1992,6,22,3,60,?9?9?9E0,cold", "not 'cold'"),
     ("1992,6,22,3,60,?9?9?9E0,11.5", "1992,6,22,3,60,?9?9?9E0,75", "from -90 to 70 in field 7"),
     ("1992,6,22,3,60,?9?9?9E0,11.5", "1992,6,22,3\r\n", "year.epw:35:"),
@@ -274,6 +276,9 @@ def test_flag_one_makes_a_value_missing(program, tmp_path):
 @pytest.mark.parametrize("old, new, message", [
     ("43.08  77.67  169", "43.08  west", "roc.dat:2:"),
     (" 1992 175 6 23 0 3", " 1992 175 6 23 24 3", "roc.dat:4:"),
+    (" 1992 175 6 23 0 3", " 1e22 175 6 23 0 3", "roc.dat:4:"),
+    (" 1992 175 6 23 0 3", " 1992 175 6 31 0 3", "roc.dat:4:"),
+    (" 1992 175 6 23 0 3", " 1992 175 6 23.5 0 3", "roc.dat:4:"),
     (" 1992 175 6 23 0 3", " 1992 175 6 23 0 0", "a time after the one before"),
     ("3.0 0 180.0", "3.0 180.0", "roc.dat:3:"),
     ("20.0 0 50.0", "200.0 0 50.0", "an air temperature in C from -90 to 60"),
@@ -318,3 +323,12 @@ def test_radsig_thermal_takes_them_too(program, tmp_path):
 
     assert done.returncode == 0, done.stderr
     assert len(done.stdout.splitlines()) == 194
+
+
+def test_a_byte_order_mark_before_an_epw_changes_nothing(program, tmp_path):
+    made = []
+    for mark in ("", "\ufeff"):
+        (tmp_path / "year.epw").write_text(mark + epw_text(), encoding="utf-8")
+        made.append(history(program, tmp_path, "year.epw")[0])
+
+    assert (made[0] == made[1]).all()

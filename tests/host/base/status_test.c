@@ -130,6 +130,37 @@ static void more_than_fits_is_cut(void **state)
     assert_string_equal(status_warnings(), "");
 }
 
+static void what_a_terminal_would_act_on_is_not_repeated(void **state)
+{
+    (void)state;
+    status_set(STATUS_FORMAT, "a.wth:1: '%s' stands there", "\x1b[2Jlate\r");
+    status_warn("%s", "\x1b]0;title\x07");
+    assert_string_equal(status_message(), "a.wth:1: '?[2Jlate?' stands there");
+    assert_string_equal(status_warnings(), "?]0;title?\n");
+}
+
+static void the_last_failure_stands_alone_whatever_is_kept_above_it(void **state)
+{
+    (void)state;
+    status_keep(status_set(STATUS_FILE, "one"));
+    status_set(STATUS_FILE, "a longer one that nobody keeps");
+    status_set(STATUS_FORMAT, "two");
+    assert_string_equal(status_last(), "two");
+    status_keep(STATUS_FORMAT);
+    assert_string_equal(status_last(), "");
+}
+
+static void what_is_finished_is_replaced_by_the_next_failure(void **state)
+{
+    (void)state;
+    status_keep(status_set(STATUS_FILE, "one"));
+    status_keep(status_set(STATUS_FILE, "two"));
+    assert_int_equal(status_finish(STATUS_FORMAT), STATUS_FORMAT);
+    assert_string_equal(status_message(), "one\ntwo");
+    status_set(STATUS_FILE, "another");
+    assert_string_equal(status_message(), "another");
+}
+
 static void *fail_elsewhere(void *record)
 {
     status_warn("late");
@@ -184,6 +215,9 @@ int main(void)
         cmocka_unit_test_setup(warnings_do_not_touch_the_message, forget),
         cmocka_unit_test_setup(told_warnings_stay_valid_while_new_ones_come, forget),
         cmocka_unit_test_setup(more_than_fits_is_cut, forget),
+        cmocka_unit_test_setup(what_a_terminal_would_act_on_is_not_repeated, forget),
+        cmocka_unit_test_setup(the_last_failure_stands_alone_whatever_is_kept_above_it, forget),
+        cmocka_unit_test_setup(what_is_finished_is_replaced_by_the_next_failure, forget),
         cmocka_unit_test_setup(what_another_thread_left_is_told_line_by_line_and_once, forget),
         cmocka_unit_test_setup(what_went_well_is_told_without_a_message, forget),
     };

@@ -238,6 +238,30 @@ static void an_empty_file_is_at_its_end(void **state)
     record_file_free(file);
 }
 
+static void a_byte_order_mark_is_passed_over(void **state)
+{
+    (void)state;
+    record_file *file = open_file("\xef\xbb\xbf"
+                                  "7 8\n");
+    double value[2];
+
+    assert_int_equal(record_file_numbers(file, 2, value, "two numbers"), STATUS_OK);
+    assert_near(value[0], 7.0, 0.0);
+    record_file_free(file);
+}
+
+static void a_file_without_a_last_line_end_may_be_cut(void **state)
+{
+    (void)state;
+    record_file *file = open_file("1\n29");
+
+    assert_false(record_file_is_whole(file));
+    record_file_free(file);
+    file = open_file("1\n290\n");
+    assert_true(record_file_is_whole(file));
+    record_file_free(file);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -258,6 +282,8 @@ int main(void)
         cmocka_unit_test(a_file_larger_than_the_first_buffer_is_read_whole),
         cmocka_unit_test(what_is_no_text_file_is_refused),
         cmocka_unit_test(an_empty_file_is_at_its_end),
+        cmocka_unit_test(a_byte_order_mark_is_passed_over),
+        cmocka_unit_test(a_file_without_a_last_line_end_may_be_cut),
     };
 
     return cmocka_run_group_tests(tests, text_file_setup, text_file_teardown);

@@ -101,8 +101,9 @@ static float *render_all(const scene *s, uint32_t tile, size_t *out_planes)
     render_planes(r, out_planes);
     assert_in_range(*out_planes, 1, PLANE_LIMIT);
     for (size_t i = 0; i < *out_planes; i++) planes[i] = values + i * PIXELS;
-    for (uint32_t first = 0; first < PIXELS; first += tile) {
-        const uint32_t left = PIXELS - first;
+    const uint32_t pixels = (uint32_t)(s->camera.columns * s->camera.rows);
+    for (uint32_t first = 0; first < pixels; first += tile) {
+        const uint32_t left = pixels - first;
         if (render_tile(r, first, left < tile ? left : tile, planes, NULL) != STATUS_OK)
             fail_msg("%s", status_message());
     }
@@ -179,6 +180,28 @@ static void planes_of_several_samples_are_the_same_bits_for_tiles_of_any_size(vo
 {
     (void)state;
     assert_tiles_change_nothing(2);
+}
+
+/* 180 rings of 720 directions, a word each, of 64 pixels: 33.2 MB, and 32 MiB are 33.6. */
+static void tiles_keep_to_32_mib_whatever_the_steps_of_the_hemisphere(void **state)
+{
+    const uint32_t cells = 180 * 720;
+    size_t count, again;
+    render *r = NULL;
+    scene *s = read_yard();
+
+    (void)state;
+    s->camera.columns = 6;
+    s->camera.rows = 3;
+    s->hemisphere_zenith_step_deg = s->hemisphere_azimuth_step_deg = .5;
+    if (render_open(&r, s, dev) != STATUS_OK) fail_msg("%s", status_message());
+    assert_in_range((size_t)render_tile_limit(r) * cells * sizeof(float), 1, 1 << 25);
+    render_free(r);
+    float *whole = render_all(s, 18, &count), *cut = render_all(s, 5, &again);
+    assert_memory_equal(cut, whole, count * PIXELS * sizeof *whole);
+    free(cut);
+    free(whole);
+    scene_free(s);
 }
 
 /* So that the test before compares more than one kind of pixel. */
@@ -302,6 +325,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(planes_are_the_same_bits_for_tiles_of_any_size),
+        cmocka_unit_test(tiles_keep_to_32_mib_whatever_the_steps_of_the_hemisphere),
         cmocka_unit_test(planes_of_several_samples_are_the_same_bits_for_tiles_of_any_size),
         cmocka_unit_test(the_yard_has_pixels_of_every_kind),
         cmocka_unit_test(a_plane_that_is_not_wanted_is_not_needed),

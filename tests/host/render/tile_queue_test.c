@@ -324,6 +324,19 @@ static void what_several_workers_warn_of_is_said_once(void **state)
     assert_string_equal(status_warnings(), "it is late\nlate\n");
 }
 
+static void a_warning_that_another_contains_is_still_told(void **state)
+{
+    (void)state;
+    fake fakes[2] = {sound(), sound()};
+    bool failed[2];
+    fakes[0].warning = "it is late and cold";
+    fakes[1].warning = "it is late";
+
+    assert_int_equal(run(fakes, 2, failed), STATUS_OK);
+
+    assert_string_equal(status_warnings(), "it is late and cold\nit is late\n");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -340,6 +353,7 @@ int main(void)
         cmocka_unit_test(an_interrupt_before_it_leaves_all_undone),
         cmocka_unit_test(an_interrupt_ends_the_work_of_all_without_a_warning),
         cmocka_unit_test(what_several_workers_warn_of_is_said_once),
+        cmocka_unit_test(a_warning_that_another_contains_is_still_told),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -340,6 +340,42 @@ static void one_name_twice_is_refused(void **state)
     assert_refused(CHANGED("name = \"mwir\"", "name = \"lwir\""), 28, "two bands \"lwir\"");
 }
 
+/* What follows a render from the names: files, headers, channels. */
+static void a_name_of_more_than_100_bytes_is_refused(void **state)
+{
+    char name[128];
+    (void)state;
+
+    for (int i = 0; i < 3; i++) {
+        static const char *const old[] = {"tiny", "wall", "lwir"};
+        static const int line[] = {1, 14, 26};
+        char before[16];
+        snprintf(before, sizeof before, "name = \"%s\"", old[i]);
+        snprintf(name, sizeof name, "name = \"%0101d\"", 0);
+        assert_refused(CHANGED(before, name), line[i], "of at most 100 bytes");
+    }
+    snprintf(name, sizeof name, "name = \"%0100d\"", 0);
+    scene *s = read_scene(CHANGED("name = \"tiny\"", name, "name = \"lwir\"", name));
+    assert_int_equal(strlen(s->name), 100);
+    scene_free(s);
+}
+
+static void a_name_with_control_characters_is_refused(void **state)
+{
+    static const char *const codes[] = {"\\r", "\\n", "\\t", "\\u001B", "\\u007F"};
+    char name[32];
+    (void)state;
+
+    for (size_t i = 0; i < sizeof codes / sizeof *codes; i++) {
+        snprintf(name, sizeof name, "name = \"a%sb\"", codes[i]);
+        assert_refused(CHANGED("name = \"tiny\"", name), 1, "without control characters");
+        assert_refused(CHANGED("name = \"wall\"", name), 14, "without control characters");
+        assert_refused(CHANGED("name = \"lwir\"", name), 26, "without control characters");
+    }
+    assert_refused(CHANGED("name = \"tiny\"", "name = \"a\\u0000b\""), 1,
+                   "name: a text with a zero character");
+}
+
 static void only_the_named_bands_are_kept(void **state)
 {
     (void)state;
@@ -365,6 +401,106 @@ static void every_file_is_an_input_once(void **state)
     scene_free(s);
 }
 
+/* The walls state what they are; nothing gives the ground plane a temperature but the weather. */
+static void a_ground_plane_without_weather_is_refused(void **state)
+{
+    (void)state;
+    assert_refused(
+        CHANGED("\"tiny.obj\"", "\"tiny.gdb\"", "thermal = \"fixed\"", "thermal = \"therm\""), 0,
+        "[weather]: the table is missing");
+}
+
+static void a_band_too_many_is_refused(void **state)
+{
+    (void)state;
+    assert_refused(
+        CHANGED("wavelength_um = [8.0, 14.0]", "wavelength_um = [8.0, 14.0]\ncount = 4096"), 29,
+        "more than 4096 bands");
+}
+
+static void whole_numbers_are_read_as_such(void **state)
+{
+    (void)state;
+    assert_refused(CHANGED("pixels = [16, 12]", "pixels = [16, 12.5]"), 24,
+                   "found [16, 12.5], expected whole numbers");
+    assert_refused(
+        CHANGED("wavelength_um = [8.0, 14.0]", "wavelength_um = [8.0, 14.0]\ncount = 2.5"), 28,
+        "count: found 2.5, expected a whole number");
+    assert_refused(CHANGED("[render]\n", "[weather]\nair_temperature_sunrise_c = 10\n"
+                                         "air_temperature_peak_c = 20\npeak_time_h = 15\n"
+                                         "relative_humidity_sunrise = 0.9\nwind_m_s = 2\n"
+                                         "cloud_type = 2.7\n[render]\n"),
+                   39, "cloud_type: found 2.7, expected a whole number");
+}
+
+/* The uniform sky is made over the bands that are right. */
+static void a_wrong_band_is_told_once(void **state)
+{
+    scene *s = NULL;
+
+    (void)state;
+    assert_int_equal(scene_read(&s, CHANGED("[3, 5]", "[5, 3]"), NULL, 0), STATUS_FORMAT);
+    if (!strstr(status_message(), ":30: ") || strchr(status_message(), '\n'))
+        fail_msg("%s", status_message());
+}
+
+static void more_pixels_than_2_31_are_refused_whatever_states_them(void **state)
+{
+    static const char view_file[] = "0 0 0\n0 0 60\n90 0 0\n85\n65536 65537\n";
+
+    (void)state;
+    write_file("wide.adv", view_file);
+    assert_refused(CHANGED("pixels = [16, 12]", "pixels = [65536, 65537]"), 24,
+                   "found 65536 x 65537 pixels, expected at most 2147483647");
+    assert_refused(CHANGED("pixels = [16, 12]", "pixels = [65536, 65537]\ncrop = [0, 0, 8, 8]"), 24,
+                   "found 65536 x 65537 pixels");
+    assert_refused(
+        CHANGED("[camera]\n", "[camera]\nview = \"wide.adv\"\n", "pixels = [16, 12]\n", ""), 21,
+        "found 65536 x 65537 pixels");
+    assert_refused(CHANGED("pixels = [16, 12]", "pixels = [40000, 40000]", "[render]\n",
+                           "[render]\nsamples_per_pixel = 4\n"),
+                   24, "pixels of 4 samples, expected at most 4294967295");
+    scene_free(read_scene(CHANGED("pixels = [16, 12]", "pixels = [46340, 46340]"))); /* below */
+}
+
+static void a_pixel_has_to_fit_on_a_device(void **state)
+{
+    (void)state;
+    assert_refused(CHANGED("[render]\n",
+                           "[render]\nsamples_per_pixel = 1024\n"
+                           "hemisphere_step_deg = { zenith = 0.5, azimuth = 0.5 }\n",
+                           "wavelength_um = [8.0, 14.0]",
+                           "wavelength_um = [8.0, 14.0]\ncount = 200"),
+                   0, "expected at most 512");
+    assert_refused(
+        CHANGED("[render]\n", "[render]\nhemisphere_step_deg = { zenith = 7, azimuth = 30 }\n"), 34,
+        "zenith: found 7, expected a divisor of 90");
+}
+
+static void names_that_a_terminal_would_act_on_are_refused(void **state)
+{
+    (void)state;
+    assert_refused(CHANGED("name = \"tiny\"", "name = \"ti\\u001bny\""), 1, "\"ti?ny\"");
+    assert_refused(CHANGED("name = \"lwir\"", "name = \"lw\\rir\""), 26, "\"lw?ir\"");
+    assert_refused(CHANGED("name = \"wall\"", "name = \"wa\\u007fll\""), 14, "\"wa?ll\"");
+}
+
+static void a_time_that_the_sun_is_not_known_for_is_told_at_its_line(void **state)
+{
+    (void)state;
+    assert_refused(CHANGED("1992-06-21", "1599-06-21"), 5, "expected one from 1600 to 9999");
+}
+
+static void a_failure_after_a_refused_scene_stands_alone(void **state)
+{
+    scene *s = NULL;
+
+    (void)state;
+    assert_int_equal(scene_read(&s, CHANGED("[3, 5]", "[5, 3]"), NULL, 0), STATUS_FORMAT);
+    status_set(STATUS_FILE, "another");
+    assert_string_equal(status_message(), "another");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -383,8 +519,19 @@ int main(void)
         cmocka_unit_test(what_a_render_would_lack_is_refused),
         cmocka_unit_test(a_material_that_nobody_knows_is_refused),
         cmocka_unit_test(one_name_twice_is_refused),
+        cmocka_unit_test(a_name_of_more_than_100_bytes_is_refused),
+        cmocka_unit_test(a_name_with_control_characters_is_refused),
         cmocka_unit_test(only_the_named_bands_are_kept),
         cmocka_unit_test(every_file_is_an_input_once),
+        cmocka_unit_test(a_ground_plane_without_weather_is_refused),
+        cmocka_unit_test(a_band_too_many_is_refused),
+        cmocka_unit_test(whole_numbers_are_read_as_such),
+        cmocka_unit_test(a_wrong_band_is_told_once),
+        cmocka_unit_test(more_pixels_than_2_31_are_refused_whatever_states_them),
+        cmocka_unit_test(a_pixel_has_to_fit_on_a_device),
+        cmocka_unit_test(names_that_a_terminal_would_act_on_are_refused),
+        cmocka_unit_test(a_time_that_the_sun_is_not_known_for_is_told_at_its_line),
+        cmocka_unit_test(a_failure_after_a_refused_scene_stands_alone),
     };
 
     return cmocka_run_group_tests(tests, write_files, scratch_teardown);

@@ -225,6 +225,16 @@ static void a_wrong_database_is_refused_at_its_line(void **state)
     assert_null(a);
 }
 
+static void a_database_cut_inside_its_last_number_is_refused(void **state)
+{
+    atmosphere *a = NULL;
+
+    (void)state;
+    text_file(database);
+    assert_int_equal(truncate(text_file_at, (off_t)strlen(database) - 2), 0);
+    assert_refused(atmosphere_read(&a, text_file_at), 718, "a number may be cut");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -235,6 +245,7 @@ int main(void)
         cmocka_unit_test(a_written_database_reads_as_it_was),
         cmocka_unit_test(a_sky_without_azimuths_is_read),
         cmocka_unit_test(a_wrong_database_is_refused_at_its_line),
+        cmocka_unit_test(a_database_cut_inside_its_last_number_is_refused),
     };
 
     return cmocka_run_group_tests_name("atmosphere", tests, fill_database, text_file_teardown);

@@ -245,10 +245,10 @@ static void wrong_numbers_are_refused(void **state)
     weather_summary summary = clear_june();
 
     summary.relative_humidity_sunrise = 90;
-    assert_summary_refused(summary, "relative humidity at sunrise: expected 0 to 1, not 90");
+    assert_summary_refused(summary, "relative humidity at sunrise: found 90, expected 0 to 1");
     summary = clear_june();
     summary.air_temperature_peak_k = 5 + KELVIN;
-    assert_summary_refused(summary, "peak in C: expected 9 to 70, not 5");
+    assert_summary_refused(summary, "peak in C: found 5, expected 9 to 70");
     summary = clear_june();
     summary.peak_time_h = 3;
     assert_summary_refused(summary, "expected between sunrise at 5.6");
@@ -261,8 +261,19 @@ static void wrong_numbers_are_refused(void **state)
     summary = clear_june();
     summary.sunrise_h = 8;
     summary.sunset_h = 6;
-    assert_summary_refused(summary, "time of sunset in h: expected 8 to 24, not 6");
-    assert_summary_refused(weather_summary_default(), "not nan");
+    assert_summary_refused(summary, "time of sunset in h: found 6, expected 8 to 24");
+    assert_summary_refused(weather_summary_default(), "found nan");
+}
+
+/* docs/file-formats.md: air from -100 to 70 C. */
+static void the_documented_ends_of_the_air_temperature_are_taken(void **state)
+{
+    (void)state;
+    weather_summary summary = clear_june();
+
+    summary.air_temperature_sunrise_k = -100 + 273.15;
+    summary.air_temperature_peak_k = 70 + 273.15;
+    weather_free(synthesise(summary, rochester));
 }
 
 int main(void)
@@ -283,6 +294,7 @@ int main(void)
         cmocka_unit_test(rain_falls_at_the_air_s_temperature_unless_stated),
         cmocka_unit_test(the_polar_day_has_a_history_too),
         cmocka_unit_test(wrong_numbers_are_refused),
+        cmocka_unit_test(the_documented_ends_of_the_air_temperature_are_taken),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
