@@ -1,6 +1,7 @@
 #include "kernels/radiance/gloss.h"
 #include "kernels/radiance/incident_faces.h"
 #include "kernels/radiance/sky_columns.h"
+#include "kernels/radiance/sky_pixel.h"
 
 /* Adds what a facet sends to every sample of a pixel. */
 static void add_facet(const incident_facet *seen, around from, radiometry_record frame,
@@ -86,7 +87,7 @@ static void add_gloss(around from, radiometry_record frame, camera_record camera
  * hemisphere brings the facet that it met (its own temperature, emissivity at the ray's angle, sun
  * and what it sees itself) or the sky of its direction, and so does each ray of a specular share. Exact
  * counterpart of the background in eq. 2.4-1 and 2.4-2.
- * Launch: (frame.pixel_count / RAY_BUNDLE where RAY_LANES is 16, else / LANES_WIDTH, rounded up).
+ * Launch: (frame.pixel_count / RAY_BUNDLE where RAY_LANES is 16, rounded up, else frame.pixel_count).
  * cell: (how.cell_count, 4), met: (how.cell_count, pixel_count), see hemisphere.cl
  * dome: (DOME_ROWS, how.dome_count)
  * facets, temperature_k, facet_background: per facet, the ground's behind the real ones
@@ -114,7 +115,7 @@ incident(const radiometry_record frame, const camera_record camera, const incide
     const incident_tables t = {frame, from, cells, dome, spectra, emissivity};
     sky_column column;
 
-    column.part.end = 0u;
+    sky_forget(&column);
     for (uint first = begin; first < end; first += LANES_WIDTH) {
         const incident_group g = incident_take_group(first, &t, hit, order);
         clear_others(&g, &t, out);

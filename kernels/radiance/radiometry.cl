@@ -219,12 +219,21 @@ static void store_emissivities(const pixel_state *pixel, global emissivity_recor
         out[1] = (emissivity_record){behind.low, behind.high, behind.fraction, 0u};
 }
 
+/* What pixels are: of each its own, and the surfaces that it may see. */
+typedef struct pixel_tables {
+    global const facet_record *facets;
+    global const material_record *materials;
+    global const float *temperature_k;
+    global const hit_record *hit;
+    global const background_record *background;
+    global const float *sunlit, *background_sunlit;
+} pixel_tables;
+
 static pixel_state pixel_look(radiometry_record frame, const air_record *air, camera_record camera,
-                              uint pixel, hit_record hit, background_record background,
-                              float sunlit, float background_sunlit,
-                              global const facet_record *facets,
-                              global const material_record *materials, float temperature_k)
+                              const pixel_tables *from, uint pixel)
 {
+    const hit_record hit = from->hit[pixel];
+    const background_record background = from->background[pixel];
     pixel_state state = {0};
     float ray[3];
 
@@ -234,32 +243,34 @@ static pixel_state pixel_look(radiometry_record frame, const air_record *air, ca
         state.sky = sky_find(frame, ray[0], ray[1], ray[2]);
         return state;
     }
-    state.temperature_k = temperature_k;
-    state.sunlit = sunlit;
+    state.temperature_k = from->temperature_k[pixel];
+    state.sunlit = from->sunlit[pixel];
     state.shape_factor = background.shape_factor;
-    const material_record material = materials[facets[hit.facet].material];
+    const material_record material = from->materials[from->facets[hit.facet].material];
     state.interaction = pixel_interaction(material, background);
     pixel_set_target(&state, frame, hit, material, ray);
     if (background.facet != RECORD_NONE)
-        pixel_set_background(&state, frame, materials[background.material], background, hit, ray,
-                             background_sunlit);
+        pixel_set_background(&state, frame, from->materials[background.material], background, hit,
+                             ray, from->background_sunlit[pixel]);
     return state;
 }
 
-/* Blocks of a pixel that are computed before those of the next one, whose rows lie apart. */
-#define BLOCKS_TOGETHER 8u
+/* Pixels of a work-item, and blocks of one that are computed before those of the next, whose rows lie
+ * apart. */
+#define PIXELS (RAY_LANES == 16 ? PIXEL_GROUP : 1u)
+#define BLOCKS_TOGETHER (RAY_LANES == 16 ? 8u : 1u)
 
-/* Some blocks of the spectra of a group. */
-typedef struct group_terms {
-    spectrum of[SENSOR_TERMS][BLOCKS_TOGETHER][PIXEL_GROUP];
-} group_terms;
+/* Some blocks of the spectra of these pixels. */
+typedef struct some_terms {
+    spectrum of[SENSOR_TERMS][BLOCKS_TOGETHER][PIXELS];
+} some_terms;
 
 /* Writes a block of one spectrum, sample by sample.
- *   of_pixel   shape (PIXEL_GROUP)
- *   out        shape (sample_count, PIXEL_GROUP) */
+ *   of_pixel   shape (PIXELS)
+ *   out        of the first of the pixels, shape (sample_count, PIXEL_GROUP) */
 static void store_block(const spectrum *of_pixel, uint block, global float *out)
 {
-#if SPECTRUM_WIDTH == 16
+#if RAY_LANES == 16 && SPECTRUM_WIDTH == 16
     spectrum of_sample[SPECTRUM_WIDTH];
 
     spectrum_turn(of_pixel, of_sample);
@@ -267,13 +278,16 @@ static void store_block(const spectrum *of_pixel, uint block, global float *out)
     for (uint k = 0; k < SPECTRUM_WIDTH; k++)
         vstore16(of_sample[k], block * SPECTRUM_WIDTH + k, out);
 #else
-    for (uint i = 0; i < PIXEL_GROUP; i++) out[(size_t)block * PIXEL_GROUP + i] = of_pixel[i];
+    for (uint i = 0; i < PIXELS; i++)
+        for (uint k = 0; k < SPECTRUM_WIDTH; k++)
+            out[(size_t)(block * SPECTRUM_WIDTH + k) * PIXEL_GROUP + i] =
+                ((const float *)&of_pixel[i])[k];
 #endif
 }
 
 /* Writes `count` blocks, from `first` on.
- *   out   shape (term_count, sample_count, PIXEL_GROUP) */
-static void store_terms(const group_terms *terms, uint term_count, uint first, uint count,
+ *   out   of the first of the pixels, shape (term_count, sample_count, PIXEL_GROUP) */
+static void store_terms(const some_terms *terms, uint term_count, uint first, uint count,
                         uint sample_count, global float *out)
 {
     for (uint k = 0; k < term_count; k++)
@@ -281,8 +295,16 @@ static void store_terms(const group_terms *terms, uint term_count, uint first, u
             store_block(terms->of[k][b], first + b, out + (size_t)k * sample_count * PIXEL_GROUP);
 }
 
+/* Sets the terms of pixels past the end. */
+static void clear_terms(some_terms *terms, uint count)
+{
+    for (uint k = 0; k < SENSOR_TERMS * BLOCKS_TOGETHER; k++)
+        for (uint i = count; i < PIXELS; i++)
+            terms->of[k / BLOCKS_TOGETHER][k % BLOCKS_TOGETHER][i] = (spectrum)0.0f;
+}
+
 /* Spectra of what reaches the sensor, eq. 2.4-1 and 2.4-2, of groups of neighbouring pixels.
- * Launch: (groups of PIXEL_GROUP pixels), from frame.first_group on.
+ * Launch: (groups of PIXEL_GROUP pixels; one pixel of these where RAY_LANES is 1), from frame.first_group on.
  * facets: per facet, the ground's behind the real ones; materials: material_record
  * temperature_k, hit, background, sunlit, background_sunlit: per pixel
  * spectra: shape (rows, sample_count), see SPECTRA_...; emissivity: shape (rows, sample_count)
@@ -307,27 +329,24 @@ radiometry(const radiometry_record frame, const air_record air, const camera_rec
            OPTIONAL global const float *extinction, OPTIONAL global const transmission_path *media,
            global emissivity_record *emissivities, global float *terms)
 {
-    const uint group = get_global_id(0), first = (frame.first_group + group) * PIXEL_GROUP;
-    if (first >= frame.pixel_count) return;
+    const uint first = frame.first_group * PIXEL_GROUP + get_global_id(0) * PIXELS;
+    if (first >= band_plane_row(frame.pixel_count)) return;
 
-    const uint count = min(PIXEL_GROUP, frame.pixel_count - first);
+    const pixel_tables pixels = {facets,     materials, temperature_k,    hit,
+                                 background, sunlit,    background_sunlit};
+    const uint count = first < frame.pixel_count ? min(PIXELS, frame.pixel_count - first) : 0u;
     const uint term_count = band_plane_terms(frame.wants), row = frame.sample_count;
-    const uint blocks = row / SPECTRUM_WIDTH;
+    const uint blocks = row / SPECTRUM_WIDTH, group = first / PIXEL_GROUP - frame.first_group;
     spectra_tables tables = {spectra, emissivity, 0, knot_first, knot_fraction, extinction, media};
-    pixel_state state[PIXEL_GROUP];
-    group_terms own;
+    pixel_state state[PIXELS];
+    some_terms own;
 
     for (uint i = 0; i < count; i++) {
-        const uint pixel = first + i;
-        state[i] =
-            pixel_look(frame, &air, camera, pixel, hit[pixel], background[pixel], sunlit[pixel],
-                       background_sunlit[pixel], facets, materials, temperature_k[pixel]);
-        store_emissivities(&state[i], emissivities + 2u * pixel);
+        state[i] = pixel_look(frame, &air, camera, &pixels, first + i);
+        store_emissivities(&state[i], emissivities + 2u * (first + i));
     }
-    for (uint k = 0; k < SENSOR_TERMS * BLOCKS_TOGETHER; k++)
-        for (uint i = count; i < PIXEL_GROUP; i++)
-            own.of[k / BLOCKS_TOGETHER][k % BLOCKS_TOGETHER][i] = (spectrum)0.0f;
-    terms += (size_t)group * term_count * row * PIXEL_GROUP;
+    clear_terms(&own, count);
+    terms += (size_t)group * term_count * row * PIXEL_GROUP + first % PIXEL_GROUP;
     for (uint block = 0; block < blocks; block += BLOCKS_TOGETHER) {
         const uint together = min(BLOCKS_TOGETHER, blocks - block);
         for (uint i = 0; i < count; i++) {

@@ -10,11 +10,11 @@ COUNT, PLACES = 20, 32
 THICK_M, AREA_M2, H = 1e-4, 0.02**2, 10.0
 
 
-@pytest.fixture(scope="module")
-def conduct(opencl):
+@pytest.fixture(scope="module", params=[16, 1])
+def conduct(opencl, request):
     """Heat along facets, W m-2, shape (2 steps, places), of one patch."""
     def run(facets, links, forcing, lit=None, step_s=900.0):
-        kernel = opencl.build("conduction")
+        kernel = opencl.build("conduction", f"-DRAY_LANES={request.param}")
         span = np.zeros(1, SPAN)
         words = 0 if lit is None else 3
         span[0] = (PLACES, 0, 0, words, 0, step_s, 0 if lit is None else 96, len(forcing))
