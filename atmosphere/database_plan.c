@@ -20,7 +20,7 @@ static void read_name(scene_reader *reader)
     scene_table t = scene_table_open(reader, reader->root, "scene");
     const char *name = "";
 
-    scene_table_string(&t, "name", &name);
+    scene_table_name(&t, "name", "", "a name", &name);
     reader->s->name = strdup(name);
     if (!reader->s->name)
         scene_took(reader, status_set(STATUS_MEMORY, "no memory for the scene's name"));

@@ -127,6 +127,8 @@ std::unique_ptr<toml_node> child_of(const toml_node &parent, const toml::node &v
         add_array(*node, *array);
     else
         set_value(*node, value);
+    if (node->string.find('\0') != node->string.npos)
+        throw failure(node->where + ": " + node->name + ": a text with a zero character");
     return node;
 }
 

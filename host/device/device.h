@@ -50,8 +50,8 @@ const device_info *device_describe(const device *dev);
 /* Gives the device host memory that is only read: a CPU uses it where it is, others get a copy. It must
  * outlive the buffer. Fails as device_allocate. */
 #define device_share(dev, out, count, elements)                                                    \
-    device_memory_share(dev, &(out)->memory, DEVICE_BYTES(*(out), count),                       \
-                           DEVICE_SOURCE(*(out), elements))
+    device_memory_share(dev, &(out)->memory, DEVICE_BYTES(*(out), count),                          \
+                        DEVICE_SOURCE(*(out), elements))
 #define device_release(buffer) device_memory_release((buffer).memory)
 
 /* Writes the first `count` elements. */

@@ -1,5 +1,6 @@
 #include "files/cache_folder.h"
 
+#include "base/number.h"
 #include "base/status.h"
 
 #include <dirent.h>
@@ -45,13 +46,12 @@ bool cache_folder_find(char out[CACHE_FOLDER_PATH])
 
 uint64_t cache_folder_budget(void)
 {
-    const double usual = 4294967296.0, most = 1e18;
+    const double usual = 4294967296.0, most_gb = 1e9;
     const char *text = getenv("RADSIG_CACHE_GB");
-    char *end;
+    double gb;
 
     if (!text) return (uint64_t)usual;
-    const double bytes = 1e9 * strtod(text, &end);
-    if (end != text && !*end && bytes >= 0.0 && bytes <= most) return (uint64_t)bytes;
+    if (number_read(text, &gb) && gb >= 0.0 && gb <= most_gb) return (uint64_t)(1e9 * gb);
     status_warn("RADSIG_CACHE_GB: found '%s', expected a number of 10^9 bytes from 0 on", text);
     return (uint64_t)usual;
 }

@@ -137,10 +137,12 @@ static status store_data(const output_file *file, int descriptor)
 
     for (off_t at = 0; at < end; at += PORTION) {
         TRY(interrupt_check());
-        /* Where the system cannot do it, fsync does. */
-        sync_file_range(descriptor, at, PORTION,
-                        SYNC_FILE_RANGE_WAIT_BEFORE | SYNC_FILE_RANGE_WRITE |
-                            SYNC_FILE_RANGE_WAIT_AFTER);
+        /* Where the system cannot do it, fsync does; an error is told once, here or there. */
+        NEED(sync_file_range(descriptor, at, PORTION,
+                             SYNC_FILE_RANGE_WAIT_BEFORE | SYNC_FILE_RANGE_WRITE |
+                                 SYNC_FILE_RANGE_WAIT_AFTER) == 0 ||
+                 errno == ENOSYS || errno == EINVAL,
+             STATUS_FILE, "%s: writing failed: %s", file->path, strerror(errno));
     }
     NEED(fsync(descriptor) == 0, STATUS_FILE, "%s: writing failed: %s", file->path,
          strerror(errno));

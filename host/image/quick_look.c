@@ -32,7 +32,7 @@ static const uint8_t missing_rgb[3] = {172, 190, 214}, line_rgb[3] = {110, 110, 
 
 /* One line beside the picture: a tick of the bar or a colour of the legend. */
 typedef struct line {
-    char text[64];
+    char text[TEXT_LENGTH];
     uint8_t rgb[3];
     uint32_t y; /* ticks: below the bar's top */
 } line;
@@ -139,8 +139,7 @@ static status list_labels(layout *lay)
         }
         line *to = &lay->legend[lay->legend_count++];
         unnamed += !label;
-        snprintf(to->text, sizeof to->text, "%.0f %.40s", (double)number[i],
-                 label ? label->name : "");
+        snprintf(to->text, sizeof to->text, "%.0f %s", (double)number[i], label ? label->name : "");
         number_colour(look, (double)number[i], to->rgb);
     }
     if (is_cut) {

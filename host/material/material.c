@@ -2,6 +2,8 @@
 
 #include "files/record_file.h"
 
+#include <ctype.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,16 +12,24 @@
 #define CONDUCTIVITY_W_M_K (CALORIE_J * 100.0 / 3600.0) /* of 1 cal/(cm h C) */
 #define DENSITY_KG_M3 1000.0                            /* of 1 g/cm3 */
 
+static bool has_control(const char *text)
+{
+    while (*text && !iscntrl((unsigned char)*text)) text++;
+    return *text != '\0';
+}
+
 static status read_name(record_file *file, char *out, size_t size, const char *expected)
 {
     status rc = STATUS_OK;
     const char *text;
 
     TRY(record_file_text(file, &text, expected));
-    if (strlen(text) < size)
-        strcpy(out, text);
-    else
+    if (strlen(text) >= size)
         rc = record_file_reject(file, "%s of fewer than %zu letters", expected, size);
+    else if (has_control(text))
+        rc = record_file_reject(file, "%s without control characters", expected);
+    else
+        strcpy(out, text);
 out:
     return rc;
 }

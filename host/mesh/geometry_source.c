@@ -1,13 +1,12 @@
 #include "mesh/geometry_source.h"
 
 #include "base/interrupt.h"
+#include "files/file_name.h"
 #include "mesh/geometry_file.h"
 #include "meshio/cancel.h"
 #include "meshio/mesh_file.h"
 
 #include <stdlib.h>
-#include <string.h>
-#include <strings.h>
 
 struct geometry_source {
     geometry_file *file;    /* of a .gdb */
@@ -31,12 +30,11 @@ status geometry_source_read(geometry_source **out, const char *path)
 {
     status rc = STATUS_OK;
     char message[1024];
-    const char *extension = strrchr(path, '.');
     geometry_source *source = calloc(1, sizeof *source);
 
     NEED(source, STATUS_MEMORY, "%s: no memory to read it", path);
     cancel_ask(interrupt_is_set);
-    if (extension && !strcasecmp(extension, ".gdb"))
+    if (file_name_ends(path, ".gdb"))
         TRY(read_geometry_file(source, path));
     else
         NEED(mesh_file_read(&source->mesh, path, message, sizeof message) == 0, STATUS_FORMAT, "%s",

@@ -5,7 +5,7 @@
 #include "image/image.h"
 #include "scene/scene.h"
 
-enum { RENDER_PLANE_NAME_SIZE = 128 };
+enum { RENDER_PLANE_NAME_SIZE = 160 };
 
 typedef struct render_plane {
     char name[RENDER_PLANE_NAME_SIZE];

@@ -1,7 +1,6 @@
 #include "scene/scene.h"
 
 #include "base/spelling.h"
-#include "base/terminal_text.h"
 #include "kernels/radiance/lobe.h"
 #include "scene/scene_limits.h"
 #include "scene/scene_parts.h"
@@ -32,12 +31,10 @@ static void read_name(scene_reader *reader)
     const char *name = "";
 
     scene_table_require(&t, "name", "the name of the scene, from which files are named");
-    scene_table_string(&t, "name", &name);
-    if (strcspn(name, "/\\") != strlen(name) || *name == '.' || !terminal_text_is_clean(name))
+    if (scene_table_name(&t, "name", "/\\", "a name for files, without slashes", &name) &&
+        *name == '.')
         scene_fail(reader, toml_node_get(reader->root, "name"),
-                   "name: found \"%s\", expected a name for files, without slashes and control "
-                   "characters",
-                   name);
+                   "name: found \"%s\", expected a name for files, not beginning with a dot", name);
     reader->s->name = strdup(name);
     if (!reader->s->name)
         scene_took(reader, status_set(STATUS_MEMORY, "no memory for the scene's name"));

@@ -1,4 +1,3 @@
-#include "base/terminal_text.h"
 #include "scene/scene_parts.h"
 
 #include <math.h>
@@ -140,11 +139,7 @@ static const char *read_band_name(scene_table *t)
     const char *name = "";
 
     scene_table_require(t, "name", "a name for the band's planes");
-    scene_table_string(t, "name", &name);
-    if (strcspn(name, " ,{}[]/\\") != strlen(name) || !terminal_text_is_clean(name))
-        scene_fail(t->reader, t->node,
-                   "%s.name: found \"%s\", expected a word without blanks , { } [ ] /",
-                   toml_node_name(t->node), name);
+    scene_table_name(t, "name", " ,{}[]/\\", "a word without blanks , { } [ ] /", &name);
     return name;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/array.h"
 #include "base/spelling.h"
+#include "base/terminal_text.h"
 
 #include <assert.h>
 #include <errno.h>
@@ -156,6 +157,23 @@ bool scene_table_string(scene_table *t, const char *key, const char **out)
     if (!took_value(t, toml_node_string(out, node, message, sizeof message), message)) return false;
     if (**out) return true;
     scene_fail(t->reader, node, "%s: is empty", toml_node_name(node));
+    return false;
+}
+
+static bool is_name(const char *text)
+{
+    return terminal_text_is_clean(text) && !strchr(text, '\t') && strlen(text) <= SCENE_NAME_LENGTH;
+}
+
+bool scene_table_name(scene_table *t, const char *key, const char *not_in_it, const char *expected,
+                      const char **out)
+{
+    if (!scene_table_string(t, key, out)) return false;
+    if (is_name(*out) && !strpbrk(*out, not_in_it)) return true;
+    const toml_node *node = toml_node_get(t->node, key);
+    scene_fail(t->reader, node,
+               "%s: found %s, expected %s, without control characters, of at most %d bytes",
+               toml_node_name(node), toml_node_text(node), expected, SCENE_NAME_LENGTH);
     return false;
 }
 

@@ -23,6 +23,10 @@ typedef struct scene_table {
     int asked_count;
 } scene_table;
 
+/* Bytes of the longest name of a scene, a band or a material: the file `SCENE_PLANE.png` can exist, and
+ * no header, legend or channel cuts it. */
+enum { SCENE_NAME_LENGTH = 100 };
+
 /* Keeps a failure `where: ...` for a node, or for the file where node is NULL. */
 __attribute__((format(printf, 3, 4))) void scene_fail(scene_reader *reader, const toml_node *node,
                                                       const char *format, ...);
@@ -48,6 +52,9 @@ bool scene_table_numbers(scene_table *t, const char *key, size_t count, double l
 bool scene_table_whole_numbers(scene_table *t, const char *key, size_t count, double low,
                                double high, double *out);
 bool scene_table_string(scene_table *t, const char *key, const char **out);
+/* A name that is not too long, without control characters and those in `not_in_it`; `expected` says so. */
+bool scene_table_name(scene_table *t, const char *key, const char *not_in_it, const char *expected,
+                      const char **out);
 bool scene_table_bool(scene_table *t, const char *key, bool *out);
 /* One of `count` words; sets its index. */
 bool scene_table_word(scene_table *t, const char *key, const char *const *words, int count,

@@ -119,3 +119,16 @@ def test_a_render_under_nohup_goes_on_after_sighup(program, scene, tmp_path):
     process.send_signal(signal.SIGHUP)
 
     assert finish(process)[0] == 0
+
+
+def test_the_longest_names_make_every_file(program, tmp_path):
+    scene = program.write_scene(tmp_path, name="n" * 100,
+                                band=[{"name": "b" * 100, "wavelength_um": [8.0, 14.0], "count": 2}])
+    whole = ",".join(f"{kind}_{'b' * 100}_1" for kind in ("reflected_background", "transmission"))
+
+    done = program.run("render", scene, "-o", tmp_path / "out", "--planes", whole, "--probe", "7,5")
+
+    assert done.returncode == 0, done.stderr
+    got = program.load(tmp_path / "out", "n" * 100)
+    assert set(got.planes) == {*whole.split(","), *(f"radiance_{'b' * 100}_{i}" for i in (0, 1))}
+    assert (tmp_path / "out" / f"{'n' * 100}_reflected_background_{'b' * 100}_1.png").exists()

@@ -290,11 +290,13 @@ def test_an_unknown_plane_is_refused_by_name(preview, scene, tmp_path):
     assert "'nothing'" in done.stderr
 
 
-def test_a_script_s_wrong_line_is_refused_with_its_number(preview, scene, tmp_path):
-    done = preview.view(scene, tmp_path, "wait", "jump 3")
+@pytest.mark.parametrize("line", ["jump 3", "click 1 2 3", "point 1 2x", "pause nan", "scroll 0x1",
+                                  "size 100 -1", "size 4294967396 100", "key", "wait 1", "page "])
+def test_a_script_s_wrong_line_is_refused_with_its_number(preview, scene, tmp_path, line):
+    done = preview.view(scene, tmp_path, "error", line)
 
     assert done.returncode == 1
-    assert "script.txt:2:" in done.stderr and "jump 3" in done.stderr
+    assert "script.txt:2:" in done.stderr and line in done.stderr
 
 
 @pytest.mark.parametrize("arguments", [[], ["--no-such"], ["a", "b"], ["a", "--size", "3"],

@@ -101,6 +101,15 @@ static void a_name_that_is_too_long_is_refused(void **state)
                    "fewer than 64 letters");
 }
 
+static void a_name_with_control_characters_is_refused(void **state)
+{
+    material_library *library = NULL;
+
+    (void)state;
+    assert_refused(material_library_read(&library, text_file_with(printed, "cloud", "clo\33[2Jud")),
+                   2, "a material's name without control characters");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -109,6 +118,7 @@ int main(void)
         cmocka_unit_test(a_name_or_code_that_came_before_is_refused_at_its_second_line),
         cmocka_unit_test(a_wrong_record_is_refused_at_its_line),
         cmocka_unit_test(a_name_that_is_too_long_is_refused),
+        cmocka_unit_test(a_name_with_control_characters_is_refused),
     };
 
     return cmocka_run_group_tests_name("material", tests, text_file_setup, text_file_teardown);

@@ -340,6 +340,42 @@ static void one_name_twice_is_refused(void **state)
     assert_refused(CHANGED("name = \"mwir\"", "name = \"lwir\""), 28, "two bands \"lwir\"");
 }
 
+/* What follows a render from the names: files, headers, channels. */
+static void a_name_of_more_than_100_bytes_is_refused(void **state)
+{
+    char name[128];
+    (void)state;
+
+    for (int i = 0; i < 3; i++) {
+        static const char *const old[] = {"tiny", "wall", "lwir"};
+        static const int line[] = {1, 14, 26};
+        char before[16];
+        snprintf(before, sizeof before, "name = \"%s\"", old[i]);
+        snprintf(name, sizeof name, "name = \"%0101d\"", 0);
+        assert_refused(CHANGED(before, name), line[i], "of at most 100 bytes");
+    }
+    snprintf(name, sizeof name, "name = \"%0100d\"", 0);
+    scene *s = read_scene(CHANGED("name = \"tiny\"", name, "name = \"lwir\"", name));
+    assert_int_equal(strlen(s->name), 100);
+    scene_free(s);
+}
+
+static void a_name_with_control_characters_is_refused(void **state)
+{
+    static const char *const codes[] = {"\\r", "\\n", "\\t", "\\u001B", "\\u007F"};
+    char name[32];
+    (void)state;
+
+    for (size_t i = 0; i < sizeof codes / sizeof *codes; i++) {
+        snprintf(name, sizeof name, "name = \"a%sb\"", codes[i]);
+        assert_refused(CHANGED("name = \"tiny\"", name), 1, "without control characters");
+        assert_refused(CHANGED("name = \"wall\"", name), 14, "without control characters");
+        assert_refused(CHANGED("name = \"lwir\"", name), 26, "without control characters");
+    }
+    assert_refused(CHANGED("name = \"tiny\"", "name = \"a\\u0000b\""), 1,
+                   "name: a text with a zero character");
+}
+
 static void only_the_named_bands_are_kept(void **state)
 {
     (void)state;
@@ -445,8 +481,8 @@ static void names_that_a_terminal_would_act_on_are_refused(void **state)
 {
     (void)state;
     assert_refused(CHANGED("name = \"tiny\"", "name = \"ti\\u001bny\""), 1, "\"ti?ny\"");
-    assert_refused(CHANGED("name = \"lwir\"", "name = \"lw\\rir\""), 25, "\"lw?ir\"");
-    assert_refused(CHANGED("name = \"wall\"", "name = \"wa\\u007fll\""), 13, "\"wa?ll\"");
+    assert_refused(CHANGED("name = \"lwir\"", "name = \"lw\\rir\""), 26, "\"lw?ir\"");
+    assert_refused(CHANGED("name = \"wall\"", "name = \"wa\\u007fll\""), 14, "\"wa?ll\"");
 }
 
 static void a_time_that_the_sun_is_not_known_for_is_told_at_its_line(void **state)
@@ -483,6 +519,8 @@ int main(void)
         cmocka_unit_test(what_a_render_would_lack_is_refused),
         cmocka_unit_test(a_material_that_nobody_knows_is_refused),
         cmocka_unit_test(one_name_twice_is_refused),
+        cmocka_unit_test(a_name_of_more_than_100_bytes_is_refused),
+        cmocka_unit_test(a_name_with_control_characters_is_refused),
         cmocka_unit_test(only_the_named_bands_are_kept),
         cmocka_unit_test(every_file_is_an_input_once),
         cmocka_unit_test(a_ground_plane_without_weather_is_refused),
