@@ -16,7 +16,8 @@ import pyopencl as cl
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path += [str(ROOT / "tests"), str(ROOT / "tests/kernels")]
 import table_d1  # noqa: E402
-from thermal_reference import FACET, FORCING, MATERIAL, SPAN  # noqa: E402
+from opencl import OpenCL  # noqa: E402
+from records import FACET, FORCING, MATERIAL, SPAN  # noqa: E402
 
 STEPS, STEP_S, LANES, LOCAL, RUNS = 193, 900.0, 16, 64, 5
 MILLION, AIRPORT = 1 << 20, 54545
@@ -30,10 +31,12 @@ def bodies(rows, count):
     facets["normal"] = normal / np.linalg.norm(normal, axis=1)[:, None]
     facets["material"] = np.arange(count) % len(rows)
     facets["thickness_m"] = 0.01 * np.array([r.thickness_cm for r in rows])[facets["material"]]
-    for i, r in enumerate(rows):
-        materials[i] = (1000 * r.density_g_cm3, 4184 * r.specific_heat_cal_g_c,
-                        0.11622 * r.conductivity_cal_cm_h_c, r.visible_emissivity,
-                        r.thermal_emissivity, r.exposed_area)
+    for material, r in zip(materials, rows):
+        material["density_kg_m3"] = 1000 * r.density_g_cm3
+        material["specific_heat_j_kg_k"] = 4184 * r.specific_heat_cal_g_c
+        material["conductivity_w_m_k"] = 0.11622 * r.conductivity_cal_cm_h_c
+        material["solar_absorptance"] = r.visible_emissivity
+        material["thermal_emissivity"], material["exposed_area"] = r.thermal_emissivity, r.exposed_area
     lump = materials["exposed_area"][facets["material"]] >= 0
     return facets[np.argsort(lump, kind="stable")], materials  # slabs first, as radsig lays them
 
@@ -50,24 +53,23 @@ def weather():
     return forcing
 
 
-def measure(context, kernel, rows, count=MILLION):
+def measure(opencl, rows, count=MILLION):
     """(seconds, seconds of processor time) of each run, temperatures kept on the device."""
     facets, materials = bodies(rows, count)
     span = np.zeros(1, SPAN)
     span[0] = (count, STEPS - 1, 1, 3, 1.0, STEP_S, 96, STEPS)
     lit = np.random.default_rng(2).integers(0, 2**32, (3, count), np.uint32)
-    memory = [cl.Buffer(context, cl.mem_flags.COPY_HOST_PTR, hostbuf=a)
-              for a in (facets, materials, weather(), lit)]
-    out = cl.Buffer(context, cl.mem_flags.WRITE_ONLY, 4 * count)
+    arguments, _ = opencl.bind("thermal", {
+        "span": span, "facets": facets, "materials": materials,
+        "load": {"forcing": weather(), "sunlit": lit, "power_materials": 0},
+        "temperature_k": np.empty(count, np.float32)})
     groups = -(-count // LANES)
     runs = []
-    with cl.CommandQueue(context) as queue:
-        for _ in range(RUNS + 1):
-            start = time.perf_counter(), time.process_time()
-            kernel(queue, (-(-groups // LOCAL) * LOCAL,), (LOCAL,), span[0], *memory, np.uint32(0),
-                   None, out)
-            queue.finish()
-            runs.append((time.perf_counter() - start[0], time.process_time() - start[1]))
+    for _ in range(RUNS + 1):
+        start = time.perf_counter(), time.process_time()
+        opencl.build("thermal")(opencl.queue, (-(-groups // LOCAL) * LOCAL,), (LOCAL,), *arguments)
+        opencl.queue.finish()
+        runs.append((time.perf_counter() - start[0], time.process_time() - start[1]))
     return runs[1:]
 
 
@@ -93,11 +95,9 @@ def render(model):
 
 def main():
     device = [d for p in cl.get_platforms() for d in p.get_devices()][0]
-    context = cl.Context([device])
+    opencl = OpenCL(cl.Context([device]))
     start = time.perf_counter()
-    source = (ROOT / "kernels/thermal/thermal.cl").read_text()
-    program = cl.Program(context, source).build(f"-cl-std=CL1.2 -I {ROOT}")
-    kernel = program.thermal
+    opencl.build("thermal")
     print(f"{device.name}, {device.max_compute_units} compute units, {STEPS - 1} steps; "
           f"the kernel was built in {time.perf_counter() - start:.2f} s")
     slabs = [r for r in table_d1.ROWS if r.exposed_area < 0]
@@ -105,7 +105,7 @@ def main():
     for name, rows, count in (("a million slabs", slabs, MILLION), ("a million lumps", lumps, MILLION),
                               ("a million of both", table_d1.ROWS, MILLION),
                               (f"{AIRPORT} slabs", slabs, AIRPORT)):
-        report(name, measure(context, kernel, rows, count), count, device.max_compute_units)
+        report(name, measure(opencl, rows, count), count, device.max_compute_units)
     for model in ("therm", "layered"):
         render(model)
 

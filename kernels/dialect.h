@@ -36,6 +36,21 @@
 #endif
 /* Before a buffer in a kernel's signature: it may be NULL. */
 #define OPTIONAL
+/* A group of tables (tables.h): as parameters of a kernel; as the struct that its functions get; and
+ * from the parameters that struct's value. */
+#define TABLES(list) list(TABLE_DECLARED, TABLE_COMMA)
+#define TABLES_STRUCT(name, list)                                                                  \
+    typedef struct name {                                                                          \
+        list(TABLE_DECLARED, TABLE_SEMICOLON);                                                     \
+    } name
+#define TABLES_GIVEN(list)                                                                         \
+    {                                                                                              \
+        list(TABLE_NAMED, TABLE_COMMA)                                                             \
+    }
+#define TABLE_DECLARED(type, name) type name
+#define TABLE_NAMED(type, name) name
+#define TABLE_COMMA ,
+#define TABLE_SEMICOLON ;
 
 #else
 

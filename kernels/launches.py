@@ -18,7 +18,7 @@ import sys
 from dataclasses import dataclass
 
 KERNELS = pathlib.Path(__file__).resolve().parent
-PARAMETERS = 40  # that anybody should have to write
+PARAMETERS = 10  # that anybody should have to write
 HOST_TYPES = ("uint", "int", "float", "uchar")  # those that are no records
 
 LIST = re.compile(r"#define (\w+_TABLES)\(TABLE, AND\)((?:.*\\\n)*.*)")

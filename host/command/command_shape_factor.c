@@ -91,8 +91,8 @@ static hit_record make_hit(const factor_request *request, const double origin_m[
     return hit;
 }
 
-/* Fills tables in which all facets are alike: only what is open counts here. */
-static status open_tables(device *dev, uint32_t facet_count, shape_factor_tables *out)
+/* Surfaces that are all alike: only what is open counts here. */
+static status open_surfaces(device *dev, uint32_t facet_count, surface_tables *out)
 {
     status rc = STATUS_OK;
     facet_record *facet = calloc(facet_count, sizeof *facet);
@@ -100,9 +100,9 @@ static status open_tables(device *dev, uint32_t facet_count, shape_factor_tables
     const material_record material = {.number = 0};
 
     NEED(facet && temperature_k, STATUS_MEMORY, "no memory for %u facets", facet_count);
-    TRY(device_allocate(dev, &out->facet, facet_count, facet));
-    TRY(device_allocate(dev, &out->temperature_k, facet_count, temperature_k));
-    TRY(device_allocate(dev, &out->material, 1, &material));
+    TRY(device_allocate(dev, &out->facets, facet_count, facet));
+    TRY(device_allocate(dev, &out->facet_temperature_k, facet_count, temperature_k));
+    TRY(device_allocate(dev, &out->materials, 1, &material));
 out:
     free(temperature_k);
     free(facet);
@@ -114,7 +114,7 @@ static status run(const factor_request *request)
     status rc = STATUS_OK;
     ray_model *model = NULL;
     hemisphere_grid *grid = NULL;
-    shape_factor_tables tables = {0};
+    surface_tables surfaces = {0};
     shape_factor_points points = {.count = 1};
     background_record_buffer out_memory = {0};
     background_record background;
@@ -126,21 +126,21 @@ static status run(const factor_request *request)
     ray_scene_set_cull(scene, false, request->cull_back);
     TRY(hemisphere_grid_open(&grid, dev, (shape_factor_reading)request->reading,
                              request->zenith_step_deg, request->azimuth_step_deg));
-    TRY(open_tables(dev, ray_model_geometry(model)->facet_count, &tables));
+    TRY(open_surfaces(dev, ray_model_geometry(model)->facet_count, &surfaces));
     hit = make_hit(request, ray_model_geometry(model)->origin_m);
     TRY(device_allocate(dev, &points.hit, 1, &hit));
     TRY(device_allocate(dev, &points.met, hemisphere_grid_cell_count(grid), NULL));
     TRY(device_allocate(dev, &out_memory, 1, NULL));
-    TRY(shape_factor_run(grid, scene, &tables, NULL, &points, out_memory));
+    TRY(shape_factor_run(grid, scene, &surfaces, NULL, &points, out_memory));
     TRY(device_download(dev, out_memory, 1, &background));
     printf("%.6f\n", (double)background.shape_factor);
 out:
     device_release(out_memory);
     device_release(points.met);
     device_release(points.hit);
-    device_release(tables.material);
-    device_release(tables.temperature_k);
-    device_release(tables.facet);
+    device_release(surfaces.materials);
+    device_release(surfaces.facet_temperature_k);
+    device_release(surfaces.facets);
     hemisphere_grid_free(grid);
     ray_model_free(model);
     return rc;

@@ -3,6 +3,14 @@
 /* Cells of a work-item that has packets of rays, see kernels/hemisphere/hemisphere.cl. */
 enum { CELLS_AT_ONCE = 72 };
 
+hemisphere_tables shape_factor_rays(const hemisphere_grid *grid, const shape_factor_points *points)
+{
+    return (hemisphere_tables){.cell = hemisphere_grid_cells(grid),
+                               .hit = points->hit,
+                               .met = points->met,
+                               .order = points->order};
+}
+
 status shape_factor_trace(const hemisphere_grid *grid, const ray_scene *scene, const float *sun,
                           const shape_factor_points *points)
 {
@@ -18,16 +26,14 @@ status shape_factor_trace(const hemisphere_grid *grid, const ray_scene *scene, c
                                              .sun_x = towards[0],
                                              .sun_y = towards[1],
                                              .sun_z = towards[2],
-                                             .world = ray_scene_world(scene),
-                                             .nodes = ray_scene_nodes(scene),
-                                             .blocks = ray_scene_blocks(scene),
+                                             .tree = ray_scene_tree(scene),
                                              .cell = hemisphere_grid_cells(grid),
                                              .hit = points->hit,
                                              .out_met = points->met});
 }
 
 status shape_factor_run(const hemisphere_grid *grid, const ray_scene *scene,
-                        const shape_factor_tables *tables, const float *sun,
+                        const surface_tables *surfaces, const float *sun,
                         const shape_factor_points *points, background_record_buffer out_background)
 {
     status rc = STATUS_OK;
@@ -37,16 +43,9 @@ status shape_factor_run(const hemisphere_grid *grid, const ray_scene *scene,
     TRY(background_run(dev, device_ray_shape(dev, points->count, 1),
                        &(background_args){.count = points->count,
                                           .cell_count = hemisphere_grid_cell_count(grid),
-                                          .world = ray_scene_world(scene),
-                                          .nodes = ray_scene_nodes(scene),
-                                          .blocks = ray_scene_blocks(scene),
-                                          .cell = hemisphere_grid_cells(grid),
-                                          .facet = tables->facet,
-                                          .temperature_k = tables->temperature_k,
-                                          .material = tables->material,
-                                          .hit = points->hit,
-                                          .met = points->met,
-                                          .order = points->order,
+                                          .tree = ray_scene_tree(scene),
+                                          .surface = *surfaces,
+                                          .hemisphere = shape_factor_rays(grid, points),
                                           .out = out_background}));
 out:
     return rc;

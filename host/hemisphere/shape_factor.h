@@ -6,13 +6,6 @@
 #include "hemisphere/hemisphere_grid.h"
 #include "rays/ray_scene.h"
 
-/* What the rays may meet; all three are read at the ground's facet too. */
-typedef struct shape_factor_tables {
-    facet_record_buffer facet;
-    float_buffer temperature_k; /* per facet */
-    material_record_buffer material;
-} shape_factor_tables;
-
 /* What one run over points works with. */
 typedef struct shape_factor_points {
     uint32_t count;
@@ -28,13 +21,17 @@ status shape_factor_trace(const hemisphere_grid *grid, const ray_scene *scene, c
 
 /* Samples the hemisphere above every point; both sides of a facet are seen. A ray that leaves the
  * scene sees the sky, or the ground plane if that is there and the ray goes down.
+ *   surfaces         that they may meet
  *   sun              unit vector towards the sun: facets met are marked where it reaches them; NULL:
  *                    nobody asks
  *   out_background   shape (count). Points without a facet get factor 1 and no
  *                    background. Of equally common materials the lowest number is taken; at most
  *                    256 materials are counted at a point */
 status shape_factor_run(const hemisphere_grid *grid, const ray_scene *scene,
-                        const shape_factor_tables *tables, const float *sun,
+                        const surface_tables *surfaces, const float *sun,
                         const shape_factor_points *points, background_record_buffer out_background);
+
+/* What kernels read of the rays of a run. */
+hemisphere_tables shape_factor_rays(const hemisphere_grid *grid, const shape_factor_points *points);
 
 #endif

@@ -12,9 +12,9 @@ enum { PIXELS_AT_ONCE = 16 };
 struct incident {
     const ray_scene *scene;
     const hemisphere_grid *grid;
-    shape_factor_tables tables;
-    incident_record how;
-    float_buffer dome; /* shape (DOME_ROWS, how.dome_count) */
+    surface_tables surfaces;
+    incident_record params;
+    float_buffer dome; /* shape (DOME_ROWS, params.dome_count) */
 };
 
 /* A point between two rows of a table. */
@@ -87,7 +87,7 @@ static status make_dome(incident *in, const radiometry_record *frame)
 
     NEED(dome, STATUS_MEMORY, "no memory for the sky");
     fill_dome(dome, count, zeniths, azimuths, frame);
-    in->how.dome_count = count;
+    in->params.dome_count = count;
     TRY(device_allocate(ray_scene_device(in->scene), &in->dome, (size_t)DOME_ROWS * count, dome));
 out:
     free(dome);
@@ -95,7 +95,7 @@ out:
 }
 
 status incident_open(incident **out, const ray_scene *scene, const hemisphere_grid *grid,
-                     const shape_factor_tables *tables, uint32_t lobe_rings,
+                     const surface_tables *surfaces, uint32_t lobe_rings,
                      const radiometry_record *frame)
 {
     status rc = STATUS_OK;
@@ -106,11 +106,11 @@ status incident_open(incident **out, const ray_scene *scene, const hemisphere_gr
          STATUS_ARGUMENT,
          "the sky has %u x %u directions, and lobes %u rings, expected %u together or fewer",
          frame->zenith_count, frame->azimuth_count, lobe_rings, INCIDENT_WEIGHTS);
-    in->how.cell_count = hemisphere_grid_cell_count(grid);
-    in->how.ring_count = lobe_rings;
+    in->params.cell_count = hemisphere_grid_cell_count(grid);
+    in->params.ring_count = lobe_rings;
     in->scene = scene;
     in->grid = grid;
-    in->tables = *tables;
+    in->surfaces = *surfaces;
     TRY(make_dome(in, frame));
     *out = in;
     in = NULL;
@@ -126,14 +126,24 @@ void incident_free(incident *in)
     free(in);
 }
 
-static incident_record how_of(const incident *in, const incident_pixels *p)
+static incident_record params_of(const incident *in, const incident_pixels *p)
 {
-    incident_record how = in->how;
+    incident_record params = in->params;
 
-    how.light_length = p->light_length;
-    how.is_of_facets = p->background.memory == NULL;
-    how.keeps_sky = p->keeps_sky;
-    return how;
+    params.light_length = p->light_length;
+    params.is_of_facets = p->background.memory == NULL;
+    params.keeps_sky = p->keeps_sky;
+    return params;
+}
+
+static hemisphere_tables rays_of(const incident *in, const incident_pixels *p)
+{
+    hemisphere_tables rays = shape_factor_rays(in->grid, &p->points);
+
+    rays.background = p->background;
+    rays.background_lit = p->background_lit;
+    rays.gloss_words = p->gloss;
+    return rays;
 }
 
 /* What bodies change of it. */
@@ -142,30 +152,13 @@ static status run_media(const incident *in, const incident_pixels *p, float_buff
     return incident_media_run(ray_scene_device(in->scene), shape1(p->frame.pixel_count),
                               &(incident_media_args){.frame = p->frame,
                                                      .camera = p->camera,
-                                                     .how = how_of(in, p),
-                                                     .cell = hemisphere_grid_cells(in->grid),
-                                                     .world = ray_scene_world(in->scene),
-                                                     .media = media_world(p->media),
-                                                     .nodes = ray_scene_nodes(in->scene),
-                                                     .blocks = ray_scene_blocks(in->scene),
-                                                     .medium_nodes = media_nodes(p->media),
-                                                     .medium_blocks = media_blocks(p->media),
-                                                     .medium = media_medium(p->media),
-                                                     .level = media_levels(p->media),
-                                                     .facets = in->tables.facet,
-                                                     .materials = in->tables.material,
-                                                     .temperature_k = in->tables.temperature_k,
-                                                     .facet_background = p->facet_background,
+                                                     .params = params_of(in, p),
+                                                     .tree = ray_scene_tree(in->scene),
+                                                     .medium = media_tables(p->media),
+                                                     .surface = in->surfaces,
                                                      .light = p->light,
-                                                     .hit = p->points.hit,
-                                                     .order = p->points.order,
-                                                     .background = p->background,
-                                                     .background_lit = p->background_lit,
-                                                     .met = p->points.met,
-                                                     .gloss_words = p->gloss,
+                                                     .hemisphere = rays_of(in, p),
                                                      .spectra = p->spectra,
-                                                     .emissivity = p->emissivity,
-                                                     .extinction = p->extinction,
                                                      .out = out});
 }
 
@@ -180,22 +173,12 @@ status incident_compute(const incident *in, const incident_pixels *p, float_buff
     TRY(incident_run(ray_scene_device(in->scene), shape,
                      &(incident_args){.frame = p->frame,
                                       .camera = p->camera,
-                                      .how = how_of(in, p),
-                                      .cell = hemisphere_grid_cells(in->grid),
+                                      .params = params_of(in, p),
                                       .dome = in->dome,
-                                      .facets = in->tables.facet,
-                                      .materials = in->tables.material,
-                                      .temperature_k = in->tables.temperature_k,
-                                      .facet_background = p->facet_background,
+                                      .surface = in->surfaces,
                                       .light = p->light,
-                                      .hit = p->points.hit,
-                                      .order = p->points.order,
-                                      .background = p->background,
-                                      .background_lit = p->background_lit,
-                                      .met = p->points.met,
-                                      .gloss_words = p->gloss,
+                                      .hemisphere = rays_of(in, p),
                                       .spectra = p->spectra,
-                                      .emissivity = p->emissivity,
                                       .out = out}));
     if (p->media) TRY(run_media(in, p, out));
 out:

@@ -11,13 +11,12 @@
 typedef struct incident incident;
 
 /* Lays points of a quadrature over the table of the sky.
- *   tables       of the facets; the ground's stands behind the real ones
  *   lobe_rings   of the materials' diffuse lobes (lobe.h)
  *   frame        zenith and azimuth of the sky's table are read
  * Fails with STATUS_ARGUMENT where the table has more than INCIDENT_WEIGHTS / lobe_rings directions. What is
  * passed in must outlive it. */
 status incident_open(incident **out, const ray_scene *scene, const hemisphere_grid *grid,
-                     const shape_factor_tables *tables, uint32_t lobe_rings,
+                     const surface_tables *surfaces, uint32_t lobe_rings,
                      const radiometry_record *frame);
 void incident_free(incident *in);
 
@@ -28,14 +27,12 @@ typedef struct incident_pixels {
     shape_factor_points points;
     background_record_buffer background; /* NULL: the surfaces are facets', taken as diffuse */
     float_buffer background_lit;
-    background_record_buffer facet_background; /* per facet, the ground's last */
-    float_buffer light;                        /* see interreflection.h */
+    light_tables light;
     uint32_t light_length;
     bool keeps_sky;    /* of facets: out holds the sky's part from before */
     uint_buffer gloss; /* see gloss.cl; NULL: nothing is rough */
-    float_buffer spectra, emissivity;
-    const media *media;      /* NULL: none */
-    float_buffer extinction; /* of bodies: see media_sample */
+    spectra_tables spectra;
+    const media *media; /* NULL: none */
 } incident_pixels;
 
 /* Computes the radiance.

@@ -20,8 +20,7 @@ struct interreflection {
     interreflection_scene from;
     interreflection_spectra spectra;
     uint32_t depth;
-    background_record_buffer background; /* per facet, the ground's last */
-    float_buffer light;                  /* shape (facets, LIGHT_ROWS, spectra.sample_count) */
+    light_tables light; /* light_length: spectra.sample_count */
     uint32_t chunk_count;
     chunk *chunks;
     float sun[3]; /* that the rays were cast for */
@@ -81,7 +80,7 @@ static void free_chunk(chunk *c)
 static status cast_rays(const interreflection *f, const chunk *c,
                         background_record_buffer background)
 {
-    return shape_factor_run(f->from.grid, f->from.scene, &f->from.tables, f->sun, &c->points,
+    return shape_factor_run(f->from.grid, f->from.scene, &f->from.surfaces, f->sun, &c->points,
                             background);
 }
 
@@ -132,7 +131,7 @@ static status look_around(interreflection *f, const float *reflectance, uint32_t
     /* The endless plane sees nothing but sky. */
     records[count] =
         (background_record){.shape_factor = 1.0f, .material = RECORD_NONE, .facet = RECORD_NONE};
-    TRY(device_allocate(device_of(f), &f->background, count_all(f), records));
+    TRY(device_allocate(device_of(f), &f->light.facet_background, count_all(f), records));
 out:
     device_release(background);
     free(records);
@@ -170,9 +169,7 @@ static status find_depth(interreflection *f, const float *reflectance, float *re
                 &(interreflection_reach_args){.count = points->count,
                                               .cell_count =
                                                   hemisphere_grid_cell_count(f->from.grid),
-                                              .cell = hemisphere_grid_cells(f->from.grid),
-                                              .hit = points->hit,
-                                              .met = points->met,
+                                              .hemisphere = shape_factor_rays(f->from.grid, points),
                                               .reflectance = reflects,
                                               .before = before,
                                               .reach = after}));
@@ -203,8 +200,8 @@ status interreflection_open(interreflection **out, const interreflection_scene *
     f->depth = depth;
     for (uint32_t i = 0; i < f->chunk_count; i++) f->chunks[i].last_depth = depth;
     if (depth == 0) TRY(find_depth(f, reflectance, reach));
-    TRY(device_allocate(device_of(f), &f->light, count_all(f) * LIGHT_ROWS * spectra->sample_count,
-                        NULL));
+    TRY(device_allocate(device_of(f), &f->light.light,
+                        count_all(f) * LIGHT_ROWS * spectra->sample_count, NULL));
     *out = f;
     f = NULL;
 out:
@@ -217,8 +214,8 @@ void interreflection_free(interreflection *f)
 {
     if (!f) return;
     for (uint32_t i = 0; i < f->chunk_count; i++) free_chunk(&f->chunks[i]);
-    device_release(f->light);
-    device_release(f->background);
+    device_release(f->light.light);
+    device_release(f->light.facet_background);
     free(f->chunks);
     free(f);
 }
@@ -245,14 +242,11 @@ static status write_light(const interreflection *f, const radiometry_record *fra
         device_of(f), shape,
         &(interreflection_args){.frame = *frame,
                                 .hit = hit,
-                                .facets = f->from.tables.facet,
-                                .materials = f->from.tables.material,
-                                .temperature_k = f->from.tables.temperature_k,
-                                .facet_background = f->background,
-                                .spectra = f->spectra.rows,
-                                .emissivity = f->spectra.emissivity,
+                                .surface = f->from.surfaces,
+                                .facet_background = f->light.facet_background,
+                                .spectra = f->spectra.tables,
                                 .arriving = arriving,
-                                .light = f->light});
+                                .light = f->light.light});
 }
 
 /* Takes light one facet further. */
@@ -265,12 +259,10 @@ static status pass_on(const interreflection *f, const radiometry_record *frame, 
         const incident_pixels pixels = {
             .frame = frame_of(f, frame, c->points.count),
             .points = c->points,
-            .facet_background = f->background,
             .light = f->light,
             .light_length = f->spectra.sample_count,
             .keeps_sky = depth > 2,
-            .spectra = f->spectra.rows,
-            .emissivity = f->spectra.emissivity,
+            .spectra = f->spectra.tables,
         };
         if (depth <= c->last_depth) TRY(incident_compute(f->from.incident, &pixels, c->arriving));
     }
@@ -301,7 +293,7 @@ out:
 status interreflection_set_sun(interreflection *f, const radiometry_record *frame)
 {
     status rc = STATUS_OK;
-    const bool has_ground = ray_scene_world(f->from.scene).ground_facet != RECORD_NONE;
+    const bool has_ground = ray_scene_tree(f->from.scene).world.ground_facet != RECORD_NONE;
     const radiometry_record all = frame_of(f, frame, f->from.shape->facet_count + has_ground);
 
     if (memcmp(f->sun, frame->sun, sizeof f->sun) != 0) TRY(turn_sun(f, frame->sun));
@@ -313,12 +305,7 @@ out:
     return rc;
 }
 
-background_record_buffer interreflection_background(const interreflection *f)
-{
-    return f->background;
-}
-
-float_buffer interreflection_rows(const interreflection *f)
+light_tables interreflection_light(const interreflection *f)
 {
     return f->light;
 }

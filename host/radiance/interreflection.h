@@ -12,7 +12,7 @@ typedef struct interreflection interreflection;
  * memory and change little, as it concerns light that is reflected twice. */
 typedef struct interreflection_spectra {
     uint32_t sample_count; /* blocks, padded to 16 */
-    float_buffer rows, emissivity;
+    spectra_tables tables;
 } interreflection_spectra;
 
 /* What light meets. */
@@ -21,7 +21,7 @@ typedef struct interreflection_scene {
     const ray_scene *scene;
     const hemisphere_grid *grid;
     const geometry *shape;
-    shape_factor_tables tables; /* of the facets; the ground's stands behind the real ones */
+    surface_tables surfaces;
 } interreflection_scene;
 
 /* What is left out of the light between facets, as a fraction, where no depth is stated; and how deep that
@@ -47,9 +47,7 @@ void interreflection_free(interreflection *f);
  * a black body at its temperature. */
 status interreflection_set_sun(interreflection *f, const radiometry_record *frame);
 
-/* Per facet, the ground's last; and shape (facets, LIGHT_ROWS, sample_count) of the
- * spectra: see interreflection.cl. They change with the sun. */
-background_record_buffer interreflection_background(const interreflection *f);
-float_buffer interreflection_rows(const interreflection *f);
+/* What facets see, and the light between them; both change with the sun. */
+light_tables interreflection_light(const interreflection *f);
 
 #endif

@@ -135,29 +135,13 @@ void media_free(media *b)
     free(b);
 }
 
-medium_world media_world(const media *b)
+medium_tables media_tables(const media *b)
 {
-    return b->world;
-}
-
-bvh_node_buffer media_nodes(const media *b)
-{
-    return b->tree.node;
-}
-
-bvh_block_buffer media_blocks(const media *b)
-{
-    return b->tree.block;
-}
-
-uint_buffer media_medium(const media *b)
-{
-    return b->medium;
-}
-
-float_buffer media_levels(const media *b)
-{
-    return b->level;
+    return (medium_tables){.media = b->world,
+                           .medium_nodes = b->tree.node,
+                           .medium_blocks = b->tree.block,
+                           .medium_row = b->medium,
+                           .air_level = b->level};
 }
 
 bool media_scatter(const media *b)

@@ -19,12 +19,8 @@ void media_free(media *b);
  *   out   shape (facet_count) */
 void media_leave_out(const struct scene *s, uint32_t (*out)[4]);
 
-/* What rays need of it. */
-medium_world media_world(const media *b);
-bvh_node_buffer media_nodes(const media *b);
-bvh_block_buffer media_blocks(const media *b);
-uint_buffer media_medium(const media *b);  /* per facet: its material's row */
-float_buffer media_levels(const media *b); /* shape (level_count, 2): m, K */
+/* What kernels need of it. */
+medium_tables media_tables(const media *b);
 
 /* True if light that a body takes may come out again. */
 bool media_scatter(const media *b);

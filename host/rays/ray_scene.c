@@ -67,19 +67,9 @@ device *ray_scene_device(const ray_scene *scene)
     return scene->dev;
 }
 
-bvh_node_buffer ray_scene_nodes(const ray_scene *scene)
+tree_tables ray_scene_tree(const ray_scene *scene)
 {
-    return scene->tree.node;
-}
-
-bvh_block_buffer ray_scene_blocks(const ray_scene *scene)
-{
-    return scene->tree.block;
-}
-
-world_record ray_scene_world(const ray_scene *scene)
-{
-    return scene->world;
+    return (tree_tables){scene->world, scene->tree.node, scene->tree.block};
 }
 
 status ray_scene_primary(const ray_scene *scene, const camera_record *camera, uint32_t columns,
@@ -91,17 +81,15 @@ status ray_scene_primary(const ray_scene *scene, const camera_record *camera, ui
         camera->samples_per_side > 1
             ? device_ray_shape(scene->dev, count, 1)
             : device_ray_shape(scene->dev, (size_t)columns * side, (rows + side - 1) / side);
-    world_record world = scene->world;
+    tree_tables tree = ray_scene_tree(scene);
 
-    world.cull_back = scene->camera_culls;
+    tree.world.cull_back = scene->camera_culls;
     return primary_run(scene->dev, shape,
                        &(primary_args){.count = count,
                                        .first_pixel = first_pixel,
                                        .columns = columns,
                                        .camera = *camera,
-                                       .world = world,
-                                       .nodes = scene->tree.node,
-                                       .blocks = scene->tree.block,
+                                       .tree = tree,
                                        .out_hit = out_hit});
 }
 
@@ -120,9 +108,7 @@ status ray_scene_trace(const ray_scene *scene, uint32_t count, uint32_t stride, 
     return trace_run(scene->dev, batches(scene->dev, count),
                      &(trace_args){.count = count,
                                    .stride = stride,
-                                   .world = scene->world,
-                                   .nodes = scene->tree.node,
-                                   .blocks = scene->tree.block,
+                                   .tree = ray_scene_tree(scene),
                                    .rays = rays,
                                    .out_range = out_range,
                                    .out_facet = out_facet});
@@ -134,9 +120,7 @@ status ray_scene_occluded(const ray_scene *scene, uint32_t count, uint32_t strid
     return occluded_run(scene->dev, batches(scene->dev, count),
                         &(occluded_args){.count = count,
                                          .stride = stride,
-                                         .world = scene->world,
-                                         .nodes = scene->tree.node,
-                                         .blocks = scene->tree.block,
+                                         .tree = ray_scene_tree(scene),
                                          .rays = rays,
                                          .out_met = out_met});
 }

@@ -23,9 +23,9 @@ void ray_scene_set_ground(ray_scene *scene, uint32_t facet, float z_m);
 void ray_scene_set_cull(ray_scene *scene, bool by_camera, bool by_others);
 
 device *ray_scene_device(const ray_scene *scene);
-bvh_node_buffer ray_scene_nodes(const ray_scene *scene);
-bvh_block_buffer ray_scene_blocks(const ray_scene *scene);
-world_record ray_scene_world(const ray_scene *scene);
+
+/* What kernels need of it. */
+tree_tables ray_scene_tree(const ray_scene *scene);
 
 /* Casts the rays of pixels first_pixel .. first_pixel + count - 1, counted along the rows.
  * Ranges are metres. Thesis 2.5.3.

@@ -149,6 +149,10 @@ static status set_temperatures(render *r)
                                               .facet = r->shared.tables.facet,
                                               .facet_count = r->shared.tables.facet_count,
                                               .memory = r->suns}));
+    r->shared.surfaces =
+        (surface_tables){.facets = r->shared.tables.facets,
+                         .materials = r->shared.tables.materials,
+                         .facet_temperature_k = temperature_of_facets(r->shared.temperatures)};
     end_stage(r, "temperatures");
 out:
     return rc;
@@ -178,17 +182,15 @@ static void set_frame(render *r)
 static status open_incident(render *r)
 {
     status rc = STATUS_OK;
-    const shape_factor_tables tables = {r->shared.tables.facets,
-                                        temperature_of_facets(r->shared.temperatures),
-                                        r->shared.tables.materials};
     const uint32_t rings = scene_lobe_rings(r->shared.s);
 
-    TRY(incident_open(&r->shared.incident_of_pixels, r->shared.rays, r->shared.grid, &tables, rings,
-                      &r->shared.frame));
-    TRY(incident_open(&r->shared.incident_of_facets, r->shared.rays, r->shared.facet_grid, &tables,
-                      rings, &r->shared.frame));
+    TRY(incident_open(&r->shared.incident_of_pixels, r->shared.rays, r->shared.grid,
+                      &r->shared.surfaces, rings, &r->shared.frame));
+    TRY(incident_open(&r->shared.incident_of_facets, r->shared.rays, r->shared.facet_grid,
+                      &r->shared.surfaces, rings, &r->shared.frame));
     const interreflection_scene from = {r->shared.incident_of_facets, r->shared.rays,
-                                        r->shared.facet_grid, r->shared.s->shape, tables};
+                                        r->shared.facet_grid, r->shared.s->shape,
+                                        r->shared.surfaces};
     TRY(interreflection_open(&r->shared.interreflection, &from, r->shared.tables.reflectance,
                              r->shared.s->depth, &r->shared.tables.blocks, r->shared.frame.sun));
     TRY(interreflection_set_sun(r->shared.interreflection, &r->shared.frame));

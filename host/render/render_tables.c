@@ -85,9 +85,9 @@ status render_tables_take_blocks(render_tables *t, device *dev, const scene *s)
     TRY(spectra_coarsen(&blocks, t->knots->spectra));
     TRY(sample_emissivity(&rows, s, blocks));
     t->blocks.sample_count = blocks->sample_count;
-    TRY(device_allocate(dev, &t->blocks.rows, (size_t)blocks->row_count * blocks->sample_count,
-                        blocks->rows));
-    TRY(upload_emissivity(&t->blocks.emissivity, dev, s, rows, blocks));
+    TRY(device_allocate(dev, &t->blocks.tables.rows,
+                        (size_t)blocks->row_count * blocks->sample_count, blocks->rows));
+    TRY(upload_emissivity(&t->blocks.tables.emissivity, dev, s, rows, blocks));
     t->reflectance = calloc(t->facet_count + 1, sizeof *t->reflectance);
     NEED(t->reflectance, STATUS_MEMORY, "no memory for %zu facets", t->facet_count);
     for (size_t i = 0; i < t->facet_count; i++)
@@ -114,13 +114,14 @@ static status take_knots(render_tables *t, device *dev, const scene *s, const me
     picked = malloc((size_t)rows * k->spectra->sample_count * sizeof *picked + 1);
     NEED(picked, STATUS_MEMORY, "no memory for the emissivity of %u materials", s->material_count);
     spectral_grid_pick(k, emissivity_rows, rows, samples, picked);
-    TRY(upload_emissivity(&t->knot_emissivity, dev, s, picked, k->spectra));
-    TRY(device_allocate(dev, &t->knot_rows,
+    TRY(upload_emissivity(&t->knot_spectra.emissivity, dev, s, picked, k->spectra));
+    TRY(device_allocate(dev, &t->knot_spectra.rows,
                         (size_t)k->spectra->row_count * k->spectra->sample_count,
                         k->spectra->rows));
     const size_t blocks = samples / SPECTRA_BLOCK;
-    TRY(device_allocate(dev, &t->knot_first, blocks, k->first));
-    TRY(device_allocate(dev, &t->knot_fraction, blocks * k->span * SPECTRA_BLOCK, k->fraction));
+    TRY(device_allocate(dev, &t->spectra.knot_first, blocks, k->first));
+    TRY(device_allocate(dev, &t->spectra.knot_fraction, blocks * k->span * SPECTRA_BLOCK,
+                        k->fraction));
 out:
     free(picked);
     return rc;
@@ -138,7 +139,7 @@ static status tabulate_bands(render_tables *t, device *dev, const scene *s)
     TRY(device_allocate(dev, &t->band_emissivity, bands * rows, NULL));
     TRY(band_temperature_run(dev, temperatures,
                              &(band_temperature_args){.sample_count = samples,
-                                                      .spectra = t->spectrum_rows,
+                                                      .spectra = t->spectra.rows,
                                                       .bands = t->band_records,
                                                       .weights = t->band_weights,
                                                       .ln_radiance = t->ln_radiance}));
@@ -147,7 +148,7 @@ static status tabulate_bands(render_tables *t, device *dev, const scene *s)
                                                     .band_count = s->band_count,
                                                     .bands = t->band_records,
                                                     .weights = t->band_weights,
-                                                    .emissivity = t->emissivity_rows,
+                                                    .emissivity = t->spectra.emissivity,
                                                     .band_emissivity = t->band_emissivity}));
 out:
     return rc;
@@ -160,16 +161,16 @@ status render_tables_take_spectra(render_tables *t, device *dev, const scene *s,
     float *emissivity_rows = NULL;
 
     TRY(spectra_build(&t->bands, s->bands, s->band_count, s->air, scene_quadrature(s), s->thesis));
-    TRY(device_allocate(dev, &t->spectrum_rows,
-                        (size_t)t->bands->row_count * t->bands->sample_count, t->bands->rows));
+    TRY(device_allocate(dev, &t->spectra.rows, (size_t)t->bands->row_count * t->bands->sample_count,
+                        t->bands->rows));
     TRY(device_allocate(dev, &t->band_records, s->band_count, t->bands->bands));
     TRY(device_allocate(dev, &t->band_weights, t->bands->weight_count, t->bands->weight_um));
     TRY(sample_emissivity(&emissivity_rows, s, t->bands));
-    TRY(upload_emissivity(&t->emissivity_rows, dev, s, emissivity_rows, t->bands));
+    TRY(upload_emissivity(&t->spectra.emissivity, dev, s, emissivity_rows, t->bands));
     if (!s->thesis) TRY(take_knots(t, dev, s, through, emissivity_rows));
     if (through)
         TRY(media_sample(through, t->bands->wavenumber_cm1, t->bands->sample_count,
-                         &t->extinction_rows));
+                         &t->spectra.extinction));
     TRY(tabulate_bands(t, dev, s));
 out:
     free(emissivity_rows);
@@ -179,20 +180,20 @@ out:
 void render_tables_free(render_tables *t)
 {
     free(t->reflectance);
-    device_release(t->knot_fraction);
-    device_release(t->knot_first);
-    device_release(t->knot_emissivity);
-    device_release(t->knot_rows);
+    device_release(t->spectra.knot_fraction);
+    device_release(t->spectra.knot_first);
+    device_release(t->knot_spectra.emissivity);
+    device_release(t->knot_spectra.rows);
     spectral_grid_free(t->knots);
-    device_release(t->blocks.emissivity);
-    device_release(t->blocks.rows);
+    device_release(t->blocks.tables.emissivity);
+    device_release(t->blocks.tables.rows);
     device_release(t->ln_radiance);
     device_release(t->band_emissivity);
     device_release(t->band_weights);
     device_release(t->band_records);
-    device_release(t->extinction_rows);
-    device_release(t->emissivity_rows);
-    device_release(t->spectrum_rows);
+    device_release(t->spectra.extinction);
+    device_release(t->spectra.emissivity);
+    device_release(t->spectra.rows);
     spectra_free(t->bands);
     device_release(t->materials);
     device_release(t->facet_ids);

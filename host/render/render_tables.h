@@ -17,14 +17,13 @@ typedef struct render_tables {
     uint_buffer facet_ids;
     material_record_buffer materials;
     spectra *bands;
-    float_buffer spectrum_rows, emissivity_rows, extinction_rows;
+    spectra_tables spectra;
     band_record_buffer band_records;
     float_buffer band_weights, band_emissivity, ln_radiance;
-    /* Exact mode: the same at knots and how samples lie between them, NULL where all samples are
-     * knots; and over blocks of knots, as interreflection.h takes them. */
+    /* Exact mode: the same at knots, where not all samples are; and over blocks of knots, as
+     * interreflection.h takes them. */
     spectral_grid *knots;
-    float_buffer knot_rows, knot_emissivity, knot_fraction;
-    uint_buffer knot_first;
+    spectra_tables knot_spectra;
     interreflection_spectra blocks;
     float *reflectance; /* shape (facet_count): the most at any wavelength */
 } render_tables;

@@ -76,7 +76,7 @@ static status allocate_media(render_tile_memory *t, const render_shared *r)
     status rc = STATUS_OK;
     const size_t n = t->room;
 
-    TRY(device_allocate(r->dev, &t->body_paths, n * TRANSMISSION_PATHS, NULL));
+    TRY(device_allocate(r->dev, &t->pixels.paths, n * TRANSMISSION_PATHS, NULL));
     TRY(device_allocate(r->dev, &t->direct, n, NULL));
     TRY(device_allocate(r->dev, &t->background_direct, n, NULL));
 out:
@@ -103,18 +103,18 @@ static status allocate(render_tile_memory *t, const render_shared *r)
     status rc = STATUS_OK;
     const size_t n = t->room;
 
-    TRY(device_allocate(r->dev, &t->hit, n, NULL));
+    TRY(device_allocate(r->dev, &t->pixels.hit, n, NULL));
     TRY(device_allocate(r->dev, &t->points.hit, n, NULL));
     TRY(device_allocate(r->dev, &t->points.order, n, NULL));
     TRY(device_allocate(r->dev, &t->points.met, n * hemisphere_grid_cell_count(r->grid), NULL));
-    TRY(device_allocate(r->dev, &t->lit, n, NULL));
+    TRY(device_allocate(r->dev, &t->pixels.sunlit, n, NULL));
     TRY(device_allocate(r->dev, &t->history, n * temperature_history_words(r->temperatures), NULL));
-    TRY(device_allocate(r->dev, &t->temperature_k, n, NULL));
-    TRY(device_allocate(r->dev, &t->background, n, NULL));
+    TRY(device_allocate(r->dev, &t->pixels.temperature_k, n, NULL));
+    TRY(device_allocate(r->dev, &t->pixels.background, n, NULL));
     TRY(device_allocate(r->dev, &t->background_hit, n, NULL));
-    TRY(device_allocate(r->dev, &t->background_lit, n, NULL));
+    TRY(device_allocate(r->dev, &t->pixels.background_sunlit, n, NULL));
     if (has_incident(r))
-        TRY(device_allocate(r->dev, &t->incident, n * 2 * r->frame.knot_count, NULL));
+        TRY(device_allocate(r->dev, &t->pixels.incident, n * 2 * r->frame.knot_count, NULL));
     if (has_incident(r) && scene_is_rough(r->s))
         TRY(device_allocate(r->dev, &t->gloss, n * LOBE_RAYS, NULL));
     if (r->media) TRY(allocate_media(t, r));
@@ -155,19 +155,19 @@ void render_tile_free(render_tile_memory *t)
     device_release(t->truth_planes);
     device_release(t->background_direct);
     device_release(t->direct);
-    device_release(t->body_paths);
-    device_release(t->incident);
+    device_release(t->pixels.paths);
+    device_release(t->pixels.incident);
     device_release(t->gloss);
-    device_release(t->background_lit);
+    device_release(t->pixels.background_sunlit);
     device_release(t->background_hit);
-    device_release(t->background);
-    device_release(t->temperature_k);
+    device_release(t->pixels.background);
+    device_release(t->pixels.temperature_k);
     device_release(t->history);
-    device_release(t->lit);
+    device_release(t->pixels.sunlit);
     device_release(t->points.met);
     device_release(t->points.order);
     device_release(t->points.hit);
-    device_release(t->hit);
+    device_release(t->pixels.hit);
     *t = (render_tile_memory){0};
 }
 
@@ -175,31 +175,28 @@ void render_tile_free(render_tile_memory *t)
 static status trace(const render_tile_memory *t, const render_shared *r)
 {
     status rc = STATUS_OK;
-    const float_buffer facet_k = temperature_of_facets(r->temperatures);
-    const shape_factor_tables tables = {r->tables.facets, facet_k, r->tables.materials};
     const point_tile where = {t->first, t->count, r->frame.columns * t->samples};
 
-    TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count, t->hit));
-    TRY(sunlight_cast(r->rays, r->frame.sun, t->count, t->hit, t->lit));
-    TRY(point_order_run(r->dev, t->hit, r->tables.facet, &where, t->points.order, t->points.hit));
-    TRY(shape_factor_run(r->is_coarse ? r->coarse_grid : r->grid, r->rays, &tables,
-                         has_incident(r) ? r->frame.sun : NULL, &t->points, t->background));
+    TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count,
+                          t->pixels.hit));
+    TRY(sunlight_cast(r->rays, r->frame.sun, t->count, t->pixels.hit, t->pixels.sunlit));
+    TRY(point_order_run(r->dev, t->pixels.hit, r->tables.facet, &where, t->points.order,
+                        t->points.hit));
+    TRY(shape_factor_run(r->is_coarse ? r->coarse_grid : r->grid, r->rays, &r->surfaces,
+                         has_incident(r) ? r->frame.sun : NULL, &t->points, t->pixels.background));
     TRY(mirror_run(r->dev, shape1(t->count),
                    &(mirror_args){.count = t->count,
                                   .camera = r->camera,
-                                  .world = ray_scene_world(r->rays),
-                                  .nodes = ray_scene_nodes(r->rays),
-                                  .blocks = ray_scene_blocks(r->rays),
-                                  .facet = r->tables.facets,
-                                  .temperature_k = facet_k,
-                                  .material = r->tables.materials,
-                                  .hit = t->hit,
-                                  .background = t->background}));
+                                  .tree = ray_scene_tree(r->rays),
+                                  .surface = r->surfaces,
+                                  .hit = t->pixels.hit,
+                                  .background = t->pixels.background}));
     TRY(background_hit_run(r->dev, shape1(t->count),
                            &(background_hit_args){.count = t->count,
-                                                  .background = t->background,
+                                                  .background = t->pixels.background,
                                                   .hit = t->background_hit}));
-    TRY(sunlight_cast(r->rays, r->frame.sun, t->count, t->background_hit, t->background_lit));
+    TRY(sunlight_cast(r->rays, r->frame.sun, t->count, t->background_hit,
+                      t->pixels.background_sunlit));
 out:
     return rc;
 }
@@ -211,30 +208,19 @@ static status cross_media(const render_tile_memory *t, const render_shared *r,
     status rc = STATUS_OK;
 
     if (media_scatter(r->media))
-        TRY(cloud_ground_run(
-            r->dev, shape1(frame->sample_count),
-            &(cloud_ground_args){.frame = *frame,
-                                 .world = ray_scene_world(r->rays),
-                                 .facets = r->tables.facets,
-                                 .materials = r->tables.materials,
-                                 .temperature_k = temperature_of_facets(r->temperatures),
-                                 .spectra = r->tables.spectrum_rows,
-                                 .emissivity = r->tables.emissivity_rows,
-                                 .extinction = r->tables.extinction_rows}));
+        TRY(cloud_ground_run(r->dev, shape1(frame->sample_count),
+                             &(cloud_ground_args){.frame = *frame,
+                                                  .world = ray_scene_tree(r->rays).world,
+                                                  .surface = r->surfaces,
+                                                  .spectra = r->tables.spectra,
+                                                  .out_extinction = r->tables.spectra.extinction}));
     TRY(crossing_run(r->dev, shape1(t->count),
                      &(crossing_args){.frame = *frame,
                                       .camera = r->camera,
-                                      .world = ray_scene_world(r->rays),
-                                      .media = media_world(r->media),
-                                      .nodes = media_nodes(r->media),
-                                      .blocks = media_blocks(r->media),
-                                      .medium = media_medium(r->media),
-                                      .level = media_levels(r->media),
-                                      .hit = t->hit,
-                                      .background_hit = t->background_hit,
-                                      .lit = t->lit,
-                                      .background_lit = t->background_lit,
-                                      .paths = t->body_paths,
+                                      .world = ray_scene_tree(r->rays).world,
+                                      .medium = media_tables(r->media),
+                                      .pixel = t->pixels,
+                                      .out_paths = t->pixels.paths,
                                       .direct = t->direct,
                                       .background_direct = t->background_direct}));
 out:
@@ -248,12 +234,9 @@ static status cast_gloss(const render_tile_memory *t, const render_shared *r,
     return gloss_run(r->dev, shape2(t->count, LOBE_RAYS),
                      &(gloss_args){.frame = *frame,
                                    .camera = r->camera,
-                                   .world = ray_scene_world(r->rays),
-                                   .nodes = ray_scene_nodes(r->rays),
-                                   .blocks = ray_scene_blocks(r->rays),
-                                   .facets = r->tables.facets,
-                                   .materials = r->tables.materials,
-                                   .hit = t->hit,
+                                   .tree = ray_scene_tree(r->rays),
+                                   .surface = r->surfaces,
+                                   .hit = t->pixels.hit,
                                    .out_met = t->gloss});
 }
 
@@ -273,20 +256,9 @@ static status integrate(const render_tile_memory *t, const render_shared *r,
                            &(radiometry_args){.frame = frame,
                                               .air = r->air,
                                               .camera = r->camera,
-                                              .facets = r->tables.facets,
-                                              .materials = r->tables.materials,
-                                              .temperature_k = t->temperature_k,
-                                              .hit = t->hit,
-                                              .background = t->background,
-                                              .sunlit = t->lit,
-                                              .background_sunlit = t->background_lit,
-                                              .spectra = r->tables.spectrum_rows,
-                                              .emissivity = r->tables.emissivity_rows,
-                                              .incident = t->incident,
-                                              .knot_first = r->tables.knot_first,
-                                              .knot_fraction = r->tables.knot_fraction,
-                                              .extinction = r->tables.extinction_rows,
-                                              .media = t->body_paths,
+                                              .surface = r->surfaces,
+                                              .pixel = t->pixels,
+                                              .spectra = r->tables.spectra,
                                               .emissivities = t->emissivities,
                                               .terms = t->terms}));
         TRY(band_planes_run(r->dev, shape,
@@ -303,51 +275,56 @@ out:
     return rc;
 }
 
+/* What arrives at the pixels, ray by ray. */
+static status collect_incident(const render_tile_memory *t, const render_shared *r,
+                               const radiometry_record *frame)
+{
+    status rc = STATUS_OK;
+    const bool all_are_knots = frame->knot_span == 0;
+    incident_pixels pixels = {
+        .frame = *frame,
+        .camera = r->camera,
+        .points = t->points,
+        .background = t->pixels.background,
+        .background_lit = t->pixels.background_sunlit,
+        .gloss = t->gloss,
+        .light_length = r->tables.blocks.sample_count,
+        .spectra = all_are_knots ? r->tables.spectra : r->tables.knot_spectra,
+        .media = r->media,
+    };
+
+    TRY(interreflection_set_sun(r->interreflection, &r->frame));
+    if (t->gloss.memory) TRY(cast_gloss(t, r, frame));
+    pixels.frame.sample_count = frame->knot_count;
+    pixels.light = interreflection_light(r->interreflection);
+    TRY(incident_compute(r->incident_of_pixels, &pixels, t->pixels.incident));
+out:
+    return rc;
+}
+
+/* The planes of the tile. */
 static status colour(const render_tile_memory *t, const render_shared *r)
 {
     status rc = STATUS_OK;
     radiometry_record frame = r->frame;
+    pixel_tables pixels = t->pixels;
 
     frame.first_pixel = t->first;
     frame.pixel_count = t->count;
     frame.wants = wants_of_samples(r, t->wants);
-    if (r->media) TRY(cross_media(t, r, &frame));
-    TRY(truth_run(
-        r->dev, shape1(t->count),
-        &(truth_args){.frame = frame,
-                      .camera = r->camera,
-                      .facets = r->tables.facets,
-                      .facet_id = r->tables.facet_ids,
-                      .materials = r->tables.materials,
-                      .temperature_k = t->temperature_k,
-                      .hit = t->hit,
-                      .background = t->background,
-                      .sunlit = r->media ? t->direct : t->lit,
-                      .background_sunlit = r->media ? t->background_direct : t->background_lit,
-                      .planes = t->truth_planes}));
-    if (has_incident(r)) {
-        TRY(interreflection_set_sun(r->interreflection, &r->frame));
-        if (t->gloss.memory) TRY(cast_gloss(t, r, &frame));
-        const bool all_are_knots = frame.knot_span == 0;
-        radiometry_record at_knots = frame;
-        at_knots.sample_count = frame.knot_count;
-        const incident_pixels pixels = {
-            .frame = at_knots,
-            .camera = r->camera,
-            .points = t->points,
-            .background = t->background,
-            .background_lit = t->background_lit,
-            .gloss = t->gloss,
-            .facet_background = interreflection_background(r->interreflection),
-            .light = interreflection_rows(r->interreflection),
-            .light_length = r->tables.blocks.sample_count,
-            .spectra = all_are_knots ? r->tables.spectrum_rows : r->tables.knot_rows,
-            .emissivity = all_are_knots ? r->tables.emissivity_rows : r->tables.knot_emissivity,
-            .media = r->media,
-            .extinction = r->tables.extinction_rows,
-        };
-        TRY(incident_compute(r->incident_of_pixels, &pixels, t->incident));
+    if (r->media) {
+        TRY(cross_media(t, r, &frame));
+        pixels.sunlit = t->direct;
+        pixels.background_sunlit = t->background_direct;
     }
+    TRY(truth_run(r->dev, shape1(t->count),
+                  &(truth_args){.frame = frame,
+                                .camera = r->camera,
+                                .surface = r->surfaces,
+                                .facet_id = r->tables.facet_ids,
+                                .pixel = pixels,
+                                .planes = t->truth_planes}));
+    if (has_incident(r)) TRY(collect_incident(t, r, &frame));
     TRY(integrate(t, r, frame));
 out:
     return rc;
@@ -358,10 +335,10 @@ status render_tile_compute(const render_tile_memory *t, const render_shared *r)
     status rc = STATUS_OK;
 
     const temperature_pixels pixels = {.count = t->count,
-                                       .hit = t->hit,
+                                       .hit = t->pixels.hit,
                                        .order = t->points.order,
                                        .history = t->history,
-                                       .temperature_k = t->temperature_k,
+                                       .temperature_k = t->pixels.temperature_k,
                                        .first_plane = TRUTH_PLANES,
                                        .planes = t->truth_planes};
 
@@ -424,7 +401,7 @@ static status refuse(const render_tile_memory *t, const render_shared *r, const 
     char text[1024] = "the sky";
 
     NEED(met, STATUS_MEMORY, "no memory for the samples of a pixel");
-    TRY(device_download(r->dev, t->hit, end, met));
+    TRY(device_download(r->dev, t->pixels.hit, end, met));
     for (size_t i = first; i < end && facet == RECORD_NONE; i++) facet = met[i].facet;
     if (facet != RECORD_NONE) scene_facet_text(r->s, facet, text, sizeof text);
     rc = status_set(STATUS_ARGUMENT, "%s: found %g in the plane %s, expected %s", text,

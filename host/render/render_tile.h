@@ -19,6 +19,7 @@ typedef struct render_shared {
     bool is_coarse;
     temperature_solver *temperatures;
     render_tables tables;
+    surface_tables surfaces;
     incident *incident_of_pixels;     /* NULL: thesis mode */
     incident *incident_of_facets;     /* the same */
     interreflection *interreflection; /* the same */
@@ -32,18 +33,13 @@ typedef struct render_tile_memory {
     uint32_t first, count;
     uint32_t room, samples; /* that there is memory for; of a pixel */
     bool is_coarse;
-    hit_record_buffer hit;
+    pixel_tables pixels;
     shape_factor_points points; /* the same hits, in an order of their own */
-    float_buffer lit, temperature_k;
     uint_buffer history;
-    background_record_buffer background;
     hit_record_buffer background_hit;
-    float_buffer background_lit;
-    uint_buffer gloss;                   /* exact mode with rough materials: see gloss.cl */
-    float_buffer incident;               /* exact mode: spectra, shape (count, 2, samples) */
-    transmission_path_buffer body_paths; /* with bodies, as the next: see crossing.cl */
-    float_buffer direct, background_direct;
-    uint32_t wants; /* planes of the bands, see band_plane.h */
+    uint_buffer gloss;                      /* exact mode with rough materials: see gloss.cl */
+    float_buffer direct, background_direct; /* with bodies: see crossing.cl */
+    uint32_t wants;                         /* planes of the bands, see band_plane.h */
     float_buffer truth_planes, band_planes;
     float_buffer mean_truth_planes, mean_band_planes; /* with several samples a pixel */
     emissivity_record_buffer emissivities;

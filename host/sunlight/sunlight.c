@@ -10,9 +10,7 @@ status sunlight_cast(const ray_scene *scene, const float sun[3], uint32_t count,
                                          .sun_x = sun[0],
                                          .sun_y = sun[1],
                                          .sun_z = sun[2],
-                                         .world = ray_scene_world(scene),
-                                         .nodes = ray_scene_nodes(scene),
-                                         .blocks = ray_scene_blocks(scene),
+                                         .tree = ray_scene_tree(scene),
                                          .hit = hit,
                                          .out_lit = out_lit});
 }

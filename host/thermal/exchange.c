@@ -65,22 +65,19 @@ out:
 
 /* What the kernel works with. */
 typedef struct conducting {
-    uint_buffer first, lit;
-    conduction_record_buffer links;
-    conduction_group_buffer groups;
-    float_buffer rows;
-    conduction_progress_buffer progress;
+    patch_tables patches;
+    uint_buffer lit;
     conduction_progress *at; /* shape (patch_count) */
 } conducting;
 
 static void conducting_free(conducting *c)
 {
-    device_release(c->progress);
-    device_release(c->rows);
-    device_release(c->groups);
-    device_release(c->links);
+    device_release(c->patches.progress);
+    device_release(c->patches.numbers);
+    device_release(c->patches.groups);
+    device_release(c->patches.links);
+    device_release(c->patches.patch_first);
     device_release(c->lit);
-    device_release(c->first);
     free(c->at);
 }
 
@@ -92,12 +89,12 @@ static status conducting_open(conducting *c, const exchange *x, const conduction
 
     c->at = calloc(patches, sizeof *c->at);
     NEED(c->at, STATUS_MEMORY, "no memory for %zu patches", patches);
-    TRY(device_allocate(dev, &c->first, patches + 1, map->patch_first));
-    TRY(device_allocate(dev, &c->links, n, map->link));
     TRY(upload_lit(x, map->facet, n, &c->lit));
-    TRY(device_allocate(dev, &c->groups, n, NULL));
-    TRY(device_allocate(dev, &c->rows, n * WORK_ROWS, NULL));
-    TRY(device_allocate(dev, &c->progress, patches, c->at));
+    TRY(device_allocate(dev, &c->patches.patch_first, patches + 1, map->patch_first));
+    TRY(device_allocate(dev, &c->patches.links, n, map->link));
+    TRY(device_allocate(dev, &c->patches.groups, n, NULL));
+    TRY(device_allocate(dev, &c->patches.numbers, n * WORK_ROWS, NULL));
+    TRY(device_allocate(dev, &c->patches.progress, patches, c->at));
 out:
     return rc;
 }
@@ -113,29 +110,21 @@ static status conduct_map(const exchange *x, const conduction_map *map,
     bool is_done = false;
 
     TRY(conducting_open(&c, x, map));
-    TRY(device_allocate(t->dev, &t->lateral_w_m2, map->count * 2 * t->step_count, NULL));
+    TRY(device_allocate(t->dev, &t->exchange.lateral_w_m2, map->count * 2 * t->step_count, NULL));
     const conduction_args args = {.span = span_of(x, map->count),
                                   .patch_count = map->patch_count,
-                                  .patch_first = c.first,
                                   .facets = facets,
-                                  .links = c.links,
-                                  .forcing = t->forcing,
-                                  .sunlit = c.lit,
-                                  .power_materials = t->power_materials,
-                                  .power = t->power,
-                                  .received_columns = t->received_columns,
-                                  .received_w_m2 = t->received_w_m2,
-                                  .groups = c.groups,
-                                  .numbers = c.rows,
-                                  .progress = c.progress,
-                                  .lateral_w_m2 = t->lateral_w_m2};
+                                  .load = thermal_loads(t, c.lit),
+                                  .exchange = t->exchange,
+                                  .patch = c.patches,
+                                  .out_w_m2 = t->exchange.lateral_w_m2};
     while (!is_done) {
         TRY(conduction_run(t->dev, shape, &args));
-        TRY(device_download(t->dev, c.progress, map->patch_count, c.at));
+        TRY(device_download(t->dev, c.patches.progress, map->patch_count, c.at));
         is_done = true;
         for (uint32_t i = 0; i < map->patch_count; i++) is_done &= c.at[i].is_done;
     }
-    t->lateral_columns = (uint32_t)map->count;
+    t->exchange.lateral_columns = (uint32_t)map->count;
 out:
     conducting_free(&c);
     return rc;
@@ -185,10 +174,10 @@ static status keep_views(exchange *x, const view_factors *f)
     TRY(device_allocate(t->dev, &x->view, columns, kept));
     TRY(device_allocate(t->dev, &x->seen, f->share_count, f->seen));
     TRY(device_allocate(t->dev, &x->fraction, f->share_count, f->fraction));
-    TRY(device_allocate(t->dev, &t->received_w_m2, columns * t->step_count, NULL));
+    TRY(device_allocate(t->dev, &t->exchange.received_w_m2, columns * t->step_count, NULL));
     TRY(device_allocate(t->dev, &x->before_w_m2, columns * t->step_count, NULL));
     TRY(device_allocate(t->dev, &x->sent_w_m2, x->facet_count * t->step_count, NULL));
-    t->received_columns = columns;
+    t->exchange.received_columns = columns;
 out:
     free(kept);
     return rc;
@@ -224,44 +213,40 @@ static status pass(exchange *x, bool is_first)
     status rc = STATUS_OK;
     thermal *t = x->model;
     const thermal_span span = span_of(x, x->facet_count);
-    const uint32_t received = is_first ? 0 : t->received_columns, n = span.facet_count;
-    device_shape each_step = shape_of(x, t->received_columns, RECEIVED_S);
+    const uint32_t n = span.facet_count;
+    device_shape each_step = shape_of(x, t->exchange.received_columns, RECEIVED_S);
+    exchange_tables before = t->exchange;
     layered_record_buffer facets = {0};
 
     each_step.size[1] = t->step_count;
+    if (is_first) before.received_columns = 0;
     TRY(thermal_upload_layered(t, x->facet, x->facet_count, &facets));
     TRY(layered_run(t->dev, thermal_shape(t, n),
                     &(layered_args){.span = span,
                                     .facets = facets,
-                                    .forcing = t->forcing,
-                                    .sunlit = x->lit,
-                                    .power_materials = t->power_materials,
-                                    .power = t->power,
-                                    .lateral_columns = t->lateral_columns,
-                                    .lateral_w_m2 = t->lateral_w_m2,
-                                    .received_columns = received,
-                                    .received_w_m2 = t->received_w_m2,
+                                    .load = thermal_loads(t, x->lit),
+                                    .exchange = before,
                                     .temperature_k = x->sent_w_m2}));
     TRY(radiosity_run(t->dev, shape_of(x, n, SENT_S),
                       &(radiosity_args){.facet_count = n,
                                         .step_count = span.step_count,
                                         .facet = facets,
                                         .forcing = t->forcing,
-                                        .received_columns = received,
-                                        .received_w_m2 = t->received_w_m2,
+                                        .received_columns = before.received_columns,
+                                        .received_w_m2 = before.received_w_m2,
                                         .rows = x->sent_w_m2}));
-    const float_buffer old = t->received_w_m2;
-    t->received_w_m2 = x->before_w_m2;
+    const float_buffer old = t->exchange.received_w_m2;
+    t->exchange.received_w_m2 = x->before_w_m2;
     x->before_w_m2 = old;
     TRY(irradiation_run(t->dev, each_step,
-                        &(irradiation_args){.column_count = t->received_columns,
+                        &(irradiation_args){.column_count = t->exchange.received_columns,
                                             .facet_count = n,
                                             .view = x->view,
                                             .seen = x->seen,
                                             .fraction = x->fraction,
                                             .forcing = t->forcing,
                                             .sent_w_m2 = x->sent_w_m2,
-                                            .received_w_m2 = t->received_w_m2}));
+                                            .received_w_m2 = t->exchange.received_w_m2}));
 out:
     device_release(facets);
     return rc;
@@ -272,7 +257,7 @@ static status find_change(const exchange *x, bool *out_changes)
 {
     status rc = STATUS_OK;
     const thermal *t = x->model;
-    const uint32_t columns = t->received_columns;
+    const uint32_t columns = t->exchange.received_columns;
     float_buffer most = {0};
     float *w_m2 = malloc(columns * sizeof *w_m2);
 
@@ -282,7 +267,7 @@ static status find_change(const exchange *x, bool *out_changes)
                            &(largest_change_args){.column_count = columns,
                                                   .row_count = (uint)t->step_count,
                                                   .before = x->before_w_m2,
-                                                  .after = t->received_w_m2,
+                                                  .after = t->exchange.received_w_m2,
                                                   .out = most}));
     TRY(device_download(t->dev, most, columns, w_m2));
     *out_changes = false;
@@ -297,7 +282,7 @@ out:
 static status send_and_receive(exchange *x)
 {
     status rc = STATUS_OK;
-    bool changes = x->model->received_columns > 0;
+    bool changes = x->model->exchange.received_columns > 0;
 
     for (int i = 0; i < PASSES && changes; i++) {
         TRY(pass(x, i == 0));

@@ -99,8 +99,8 @@ out:
 void thermal_free(thermal *t)
 {
     if (!t) return;
-    device_release(t->received_w_m2);
-    device_release(t->lateral_w_m2);
+    device_release(t->exchange.received_w_m2);
+    device_release(t->exchange.lateral_w_m2);
     device_release(t->power);
     device_release(t->forcing);
     device_release(t->materials);
@@ -134,6 +134,14 @@ static void fill_layered(const thermal *t, const facet_record *facet, size_t cou
         out[i].sky_fraction =
             column > 0 ? t->sky_fraction[column - 1] : 0.5f * (1.0f + facet[i].normal[2]);
     }
+}
+
+load_tables thermal_loads(const thermal *t, uint_buffer lit)
+{
+    return (load_tables){.forcing = t->forcing,
+                         .sunlit = lit,
+                         .power_materials = t->power_materials,
+                         .power = t->power};
 }
 
 device_shape thermal_shape(const thermal *t, size_t facet_count)
@@ -170,14 +178,8 @@ static status run_layered(const thermal *t, const batch *b, thermal_span span, u
     TRY(layered_run(t->dev, thermal_shape(t, b->count),
                     &(layered_args){.span = span,
                                     .facets = facets,
-                                    .forcing = t->forcing,
-                                    .sunlit = lit,
-                                    .power_materials = t->power_materials,
-                                    .power = t->power,
-                                    .lateral_columns = t->lateral_columns,
-                                    .lateral_w_m2 = t->lateral_w_m2,
-                                    .received_columns = t->received_columns,
-                                    .received_w_m2 = t->received_w_m2,
+                                    .load = thermal_loads(t, lit),
+                                    .exchange = t->exchange,
                                     .temperature_k = out_temperature_k}));
 out:
     device_release(facets);
@@ -195,10 +197,7 @@ static status run_thermal(const thermal *t, const batch *b, thermal_span span, u
                     &(thermal_args){.span = span,
                                     .facets = facets,
                                     .materials = t->materials,
-                                    .forcing = t->forcing,
-                                    .sunlit = lit,
-                                    .power_materials = t->power_materials,
-                                    .power = t->power,
+                                    .load = thermal_loads(t, lit),
                                     .temperature_k = out_temperature_k}));
 out:
     device_release(facets);

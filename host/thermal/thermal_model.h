@@ -14,13 +14,14 @@ struct thermal {
     float_buffer power;       /* shape (steps, power_materials) */
     uint32_t power_materials; /* 0: no material's power changes */
     size_t step_count;
-    double step_s, time_h;      /* of the image, since the first step */
-    float_buffer lateral_w_m2;  /* shape (2 steps, lateral_columns): heat along facets */
-    uint32_t lateral_columns;   /* 0: none */
-    float_buffer received_w_m2; /* shape (steps, received_columns): longwave */
-    uint32_t received_columns;  /* 0: none */
-    float *sky_fraction;        /* shape (received_columns): of the views */
+    double step_s, time_h;    /* of the image, since the first step */
+    exchange_tables exchange; /* heat along facets, and longwave that reaches them */
+    float *sky_fraction;      /* shape (received_columns): of the views */
 };
+
+/* What acts on facets.
+ *   lit   as lit.h has it; NULL: always lit */
+load_tables thermal_loads(const thermal *t, uint_buffer lit);
 
 /* Launches of facets that go through the weather, by lanes. */
 device_shape thermal_shape(const thermal *t, size_t facet_count);

@@ -6,23 +6,23 @@
 /* Counts what the rays of points first .. first + LANES_WIDTH - 1 met.
  *   used      a bit per lane that is a point
  * Returns the shares that met nothing. */
-static inline lanes count_rays(const uint cell_count, global const float *cell,
-                               global const facet_record *facet, global const float *temperature_k,
-                               global const uint *met, const uint first, const uint count,
+static inline lanes count_rays(const surface_tables *surfaces, const hemisphere_tables *rays,
+                               const uint cell_count, const uint first, const uint count,
                                const uint used, hemisphere_count all[LANES_WIDTH])
 {
     lanes open[2] = {(lanes)0.0f, (lanes)0.0f}, blocked[2] = {(lanes)0.0f, (lanes)0.0f};
 
     for (uint i = 0; i < LANES_WIDTH; i++) hemisphere_count_clear(&all[i]);
     for (uint c = 0; c < cell_count; c++) {
-        const lanes_bits word = lanes_load_bits(met + (size_t)c * count, first, count);
+        const lanes_bits word = lanes_load_bits(rays->met + (size_t)c * count, first, count);
         const lanes_mask is_open = word == RECORD_NONE, is_met = word != RECORD_NONE;
-        hemisphere_lanes_add(open, is_open, cell[4 * c + 3]);
-        hemisphere_lanes_add(blocked, is_met, cell[4 * c + 3]);
+        hemisphere_lanes_add(open, is_open, rays->cell[4 * c + 3]);
+        hemisphere_lanes_add(blocked, is_met, rays->cell[4 * c + 3]);
         for (uint left = lanes_bits_of(is_met) & used; left; left &= left - 1) {
             const uint i = 31 - clz(left & -left);
             const uint seen = ((const uint *)&word)[i] & ~HEMISPHERE_LIT;
-            hemisphere_count_met(&all[i], c, facet[seen].material, temperature_k[seen]);
+            hemisphere_count_met(&all[i], c, surfaces->facets[seen].material,
+                                 surfaces->facet_temperature_k[seen]);
         }
     }
     return open[0] / (open[0] + blocked[0]);
@@ -42,49 +42,45 @@ static inline uint commonest(const hemisphere_count *c, global const material_re
 }
 
 /* Sums up what the rays of the hemisphere met: eq. 2.4.2-6 and the background of 2.4.2.
- * Launch: (count / RAY_LANES, rounded up). cell: (cell_count, 4); facet, temperature_k: per facet,
- * the ground's too; material: per material; hit: (count); met: (cell_count, count) as hemisphere.cl
- * writes it; order: (count), which point of out each of these is, NULL: the same; out: (count). */
-SHARED_BODY kernel void
-background(const uint count, const uint cell_count, const world_record world,
-           global const bvh_node *nodes, global const bvh_block *blocks, global const float *cell,
-           global const facet_record *facet, global const float *temperature_k,
-           global const material_record *material, global const hit_record *hit,
-           global const uint *met, OPTIONAL global const uint *order, global background_record *out)
+ * Launch: (count / RAY_LANES, rounded up). out: (count). */
+SHARED_BODY kernel void background(const uint count, const uint cell_count, TABLES(TREE_TABLES),
+                                   TABLES(SURFACE_TABLES), TABLES(HEMISPHERE_TABLES),
+                                   global background_record *out)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= count) return;
     const uint lane_count = min((uint)LANES_WIDTH, count - first), used = (1u << lane_count) - 1u;
+    const tree_tables tree = TABLES_GIVEN(TREE_TABLES);
+    const surface_tables surfaces = TABLES_GIVEN(SURFACE_TABLES);
+    const hemisphere_tables rays = TABLES_GIVEN(HEMISPHERE_TABLES);
     hemisphere_count all[LANES_WIDTH];
     ray_packet packet;
     ray_packet_hit closest;
 
-    const lanes open =
-        count_rays(cell_count, cell, facet, temperature_k, met, first, count, used, all);
-    ray_packet_clear(&packet, &world);
+    const lanes open = count_rays(&surfaces, &rays, cell_count, first, count, used, all);
+    ray_packet_clear(&packet, &tree.world);
     for (uint i = 0; i < lane_count; i++) {
         background_record back = {
             .shape_factor = 1.0f, .material = RECORD_NONE, .facet = RECORD_NONE};
         if (all[i].met_count > 0) {
-            const uint best = commonest(&all[i], material);
-            const hit_record at = hit[first + i];
-            const ray r = hemisphere_ray(&at, cell, all[i].first[best], &world);
+            const uint best = commonest(&all[i], surfaces.materials);
+            const hit_record at = rays.hit[first + i];
+            const ray r = hemisphere_ray(&at, rays.cell, all[i].first[best], &tree.world);
             back.shape_factor = ((const float *)&open)[i];
             back.mean_temperature_k = all[i].base_k + all[i].excess_k / (float)all[i].met_count;
             back.material = all[i].material[best];
             back.met_count = all[i].met_count;
             ray_packet_set(&packet, i, &r);
         }
-        out[hemisphere_point(order, first + i)] = back;
+        out[hemisphere_point(rays.order, first + i)] = back;
     }
     if (!packet.alive) return;
-    ray_packet_closest(nodes, blocks, &packet, &closest);
+    ray_packet_closest(tree.nodes, tree.blocks, &packet, &closest);
     for (uint i = 0; i < lane_count; i++) {
         if (!(packet.alive >> i & 1)) continue;
         const ray r = ray_packet_get(&packet, i);
-        const hit_record record =
-            hemisphere_record(&r, ray_packet_hit_of(&closest, i), &world, blocks);
-        global background_record *back = &out[hemisphere_point(order, first + i)];
+        const hit_record record = hemisphere_record(&r, ray_packet_hit_of(&closest, i), &tree);
+        global background_record *back = &out[hemisphere_point(rays.order, first + i)];
         back->facet = record.facet;
         vstore3(vload3(0, record.point), 0, back->point);
         vstore3(vload3(0, record.normal), 0, back->normal);

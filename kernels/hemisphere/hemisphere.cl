@@ -79,8 +79,7 @@ static void cast_those_alike(ray_queue *shadows, const hemisphere_scene *scene,
  * (count); out_met: (cell_count, count) the facet met, with HEMISPHERE_LIT where the sun reaches the
  * point met; RECORD_NONE for the sky and for points without a facet. */
 SHARED_BODY kernel void hemisphere(const uint count, const uint cell_count, const float sun_x,
-                                   const float sun_y, const float sun_z, const world_record world,
-                                   global const bvh_node *nodes, global const bvh_block *blocks,
+                                   const float sun_y, const float sun_z, TABLES(TREE_TABLES),
                                    global const float *cell, global const hit_record *hit,
                                    global uint *out_met)
 {
@@ -89,19 +88,17 @@ SHARED_BODY kernel void hemisphere(const uint count, const uint cell_count, cons
     if (first >= count || first_cell >= cell_count) return;
     const uint cells = min((uint)HEMISPHERE_CELLS, cell_count - first_cell);
     const uint left = min((uint)(RAY_GROUPS * RAY_LANES), count - first);
-    const hemisphere_scene scene = {.world = world,
-                                    .nodes = nodes,
-                                    .blocks = blocks,
+    const hemisphere_scene scene = {.tree = TABLES_GIVEN(TREE_TABLES),
                                     .sun = {sun_x, sun_y, sun_z},
                                     .out_met = out_met + (size_t)first_cell * count + first,
                                     .stride = count};
-    ray_queue shadows = ray_queue_of(&world);
+    ray_queue shadows = ray_queue_of(&scene.tree.world);
     hemisphere_points points[RAY_GROUPS];
     hemisphere_rays rays = {.row_count = 0};
     uint groups = 0;
 
     for (; groups * RAY_LANES < left; groups++)
-        points[groups] = take_points(&world, hit + first, groups * RAY_LANES, left);
+        points[groups] = take_points(&scene.tree.world, hit + first, groups * RAY_LANES, left);
     for (uint c = 0; c < cells; c++)
         for (uint i = 0; i < left; i++) scene.out_met[c * (size_t)count + i] = RECORD_NONE;
     cell += 4 * first_cell;

@@ -3,7 +3,7 @@
 #define HEMISPHERE_H
 
 #include "kernels/rays/ray_packet.h"
-#include "kernels/records.h"
+#include "kernels/tables.h"
 
 /* Materials that are counted at one point. */
 #define HEMISPHERE_MATERIALS 256
@@ -59,13 +59,11 @@ static inline ray hemisphere_ray(const hit_record *at, global const float *cell,
 }
 
 /* What such a ray met; what leaves the geometry going down meets the ground plane if there is one. */
-static inline hit_record hemisphere_record(const ray *r, const ray_hit met,
-                                           const world_record *world,
-                                           global const bvh_block *blocks)
+static inline hit_record hemisphere_record(const ray *r, const ray_hit met, const tree_tables *tree)
 {
-    hit_record record = ray_record(blocks, r, met);
+    hit_record record = ray_record(tree->blocks, r, met);
 
-    if (record.facet == RECORD_NONE) ray_meet_ground(world, r, &record);
+    if (record.facet == RECORD_NONE) ray_meet_ground(&tree->world, r, &record);
     return record;
 }
 

@@ -70,9 +70,9 @@ static void hemisphere_set_beam(hemisphere_beam *out, const hemisphere_scene *sc
 
     vstore4(vload4(0, cell), 0, in_frame);
     hemisphere_direction(frame, in_frame, out->direction);
-    out->down = scene->world.ground_facet != RECORD_NONE && -out->direction[2] > RAY_LEVEL;
+    out->down = scene->tree.world.ground_facet != RECORD_NONE && -out->direction[2] > RAY_LEVEL;
     out->beam = ray_beam_of(&alike->all, out->direction);
-    out->listed = ray_beam_collect(&out->beam, scene->nodes, &out->list);
+    out->listed = ray_beam_collect(&out->beam, scene->tree.nodes, &out->list);
 }
 
 /* Casts the rays of a group.
@@ -88,11 +88,12 @@ static void hemisphere_cast_group(ray_queue *shadows, const hemisphere_scene *sc
     ray_packet_hit met;
 
     if (wide->listed && count == 0 && !wide->down) return;
-    const ray_packet packet = hemisphere_packet(points, &scene->world, wide->direction);
+    const ray_packet packet = hemisphere_packet(points, &scene->tree.world, wide->direction);
     if (wide->listed)
-        ray_beam_closest(&wide->list, leaf, count, scene->nodes, scene->blocks, &packet, &met);
+        ray_beam_closest(&wide->list, leaf, count, scene->tree.nodes, scene->tree.blocks, &packet,
+                         &met);
     else
-        ray_packet_closest(scene->nodes, scene->blocks, &packet, &met);
+        ray_packet_closest(scene->tree.nodes, scene->tree.blocks, &packet, &met);
     for (uint i = 0; i < RAY_LANES; i++) word[i] = first_word + points->place + i;
     hemisphere_write(shadows, scene, &packet, &met, word);
 }

@@ -119,10 +119,10 @@ static void hemisphere_cast_apart(ray_queue *shadows, const hemisphere_scene *sc
         uint word[RAY_LANES];
         ray_packet_hit met;
         const ray_packet packet =
-            sorted ? hemisphere_take_some(rays, &scene->world, order + at,
+            sorted ? hemisphere_take_some(rays, &scene->tree.world, order + at,
                                           min(count - at, (uint)RAY_LANES), word)
-                   : hemisphere_take_row(rays, &scene->world, at / RAY_LANES, word);
-        ray_packet_closest(scene->nodes, scene->blocks, &packet, &met);
+                   : hemisphere_take_row(rays, &scene->tree.world, at / RAY_LANES, word);
+        ray_packet_closest(scene->tree.nodes, scene->tree.blocks, &packet, &met);
         hemisphere_write(shadows, scene, &packet, &met, word);
     }
     rays->row_count = 0;

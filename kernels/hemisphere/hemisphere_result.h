@@ -12,9 +12,7 @@
 
 /* The scene, the sun, and where the words go. */
 typedef struct hemisphere_scene {
-    world_record world;
-    global const bvh_node *nodes;
-    global const bvh_block *blocks;
+    tree_tables tree;
     float sun[3];
     global uint *out_met; /* of the first point in the first cell */
     uint stride;          /* points of a cell */
@@ -31,7 +29,7 @@ typedef struct hemisphere_points {
 /* Casts the rays towards the sun that wait; the words that mark those that reach it say so. */
 static void hemisphere_cast_shadows(ray_queue *shadows, const hemisphere_scene *scene)
 {
-    const uint reached = ray_queue_cast(shadows, scene->nodes, scene->blocks);
+    const uint reached = ray_queue_cast(shadows, scene->tree.nodes, scene->tree.blocks);
 
     for (uint i = 0; i < RAY_LANES; i++)
         if (reached >> i & 1) scene->out_met[shadows->mark[i]] |= HEMISPHERE_LIT;
@@ -50,9 +48,9 @@ static void hemisphere_look_for_sun(ray_queue *shadows, const hemisphere_scene *
         origin[k] = lanes_read(packet->origin[k]);
         direction[k] = lanes_read(packet->direction[k]);
     }
-    const hit_lanes at = hit_lanes_of(scene->blocks, origin, direction, met);
+    const hit_lanes at = hit_lanes_of(scene->tree.blocks, origin, direction, met);
     const lanes facing = (at.normal[0] * sun[0] + at.normal[1] * sun[1]) + at.normal[2] * sun[2];
-    for (int k = 0; k < 3; k++) origin[k] = at.point[k] + scene->world.offset_m * at.normal[k];
+    for (int k = 0; k < 3; k++) origin[k] = at.point[k] + scene->tree.world.offset_m * at.normal[k];
     for (uint lit = lanes_bits_of(facing > 0.0f) & have; lit; lit &= lit - 1) {
         const uint i = 31 - clz(lit & -lit);
         ray r = {.direction = {sun[0], sun[1], sun[2]}};
@@ -66,7 +64,7 @@ static void hemisphere_look_for_sun(ray_queue *shadows, const hemisphere_scene *
 static void hemisphere_write(ray_queue *shadows, const hemisphere_scene *scene,
                              const ray_packet *packet, const ray_packet_hit *met, const uint *word)
 {
-    const uint ground = scene->world.ground_facet, day = scene->sun[2] > 0;
+    const uint ground = scene->tree.world.ground_facet, day = scene->sun[2] > 0;
     const lanes_mask is_missed = *(const lanes_bits *)met->facet == RECORD_NONE;
     const uint have = packet->alive & ~lanes_bits_of(is_missed);
     uint down =

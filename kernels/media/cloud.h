@@ -12,6 +12,7 @@
 #define CLOUD_H
 
 #include "kernels/media/transmission.h"
+#include "kernels/tables.h"
 
 /* First rows of the table of bodies, of sample_count floats each: of every material its extinction
  * per m, its single-scattering albedo and its asymmetry; and what clouds see below them. */
@@ -33,27 +34,49 @@ typedef struct cloud_light {
 #define CLOUD_LEAST_DEPTH 1e-3f /* below, sources do not change any more */
 #define CLOUD_MOST_PATHS 30.0f  /* beyond, nothing is left */
 
-/* The sun's part of a layer that is scaled by its forward peak.
- *   depth, albedo, asymmetry   scaled
- *   first, second              coefficients of the two streams; eigenvalue, even, odd: of them
- *   sun_up                     cosine of the sun's zenith angle, above 0 */
-static inline void cloud_add_sun(cloud_layer *layer, spectrum depth, spectrum albedo,
-                                 spectrum asymmetry, spectrum first, spectrum second,
-                                 spectrum eigenvalue, spectrum even, spectrum odd, float sun_up)
+/* The two streams in a layer that is scaled by its forward peak. */
+typedef struct cloud_streams {
+    spectrum depth, albedo, asymmetry; /* scaled */
+    spectrum first, second;            /* coefficients */
+    spectrum eigenvalue, even, odd;    /* of them; solutions cosh, and sinh over the eigenvalue */
+} cloud_streams;
+
+static inline cloud_streams cloud_streams_of(spectrum depth, spectrum albedo, spectrum asymmetry)
+{
+    const spectrum peak = asymmetry * asymmetry, kept = 1.0f - albedo * peak;
+    const spectrum absorbed = 2.0f * (1.0f - albedo) / kept;
+    cloud_streams s;
+
+    s.depth = depth * kept;
+    s.albedo = albedo * (1.0f - peak) / kept;
+    s.asymmetry = asymmetry / (1.0f + asymmetry);
+    s.second = 0.75f * s.albedo * (1.0f - s.asymmetry);
+    s.first = s.second + absorbed;
+    s.eigenvalue = fmax(sqrt(absorbed * (s.first + s.second)), (spectrum)1e-6f);
+    const spectrum paths = fmin(s.eigenvalue * s.depth, (spectrum)CLOUD_MOST_PATHS);
+    s.even = cosh(paths);
+    s.odd = sinh(paths) / s.eigenvalue;
+    return s;
+}
+
+/* The sun's part of a layer.
+ *   sun_up   cosine of the sun's zenith angle, above 0 */
+static inline void cloud_add_sun(cloud_layer *layer, const cloud_streams *s, float sun_up)
 {
     /* Where the sun's own path is the eigenvalue's the formula is 0 / 0: look a little beside. */
-    const spectrum near = fabs(eigenvalue * sun_up - 1.0f);
-    const spectrum mu = near < (spectrum)1e-3f ? 0.999f / eigenvalue : (spectrum)sun_up;
-    const spectrum back = 0.25f * (2.0f - 3.0f * asymmetry * mu), on = 1.0f - back;
-    const spectrum with_on = first * on + second * back, with_back = first * back + second * on;
-    const spectrum square = eigenvalue * eigenvalue * mu, left = exp(-depth / mu);
-    const spectrum factor = albedo * layer->diffuse_through / (1.0f - square * mu);
+    const spectrum near = fabs(s->eigenvalue * sun_up - 1.0f);
+    const spectrum mu = near < (spectrum)1e-3f ? 0.999f / s->eigenvalue : (spectrum)sun_up;
+    const spectrum back = 0.25f * (2.0f - 3.0f * s->asymmetry * mu), on = 1.0f - back;
+    const spectrum with_on = s->first * on + s->second * back;
+    const spectrum with_back = s->first * back + s->second * on;
+    const spectrum square = s->eigenvalue * s->eigenvalue * mu, left = exp(-s->depth / mu);
+    const spectrum factor = s->albedo * layer->diffuse_through / (1.0f - square * mu);
 
-    layer->sun_back =
-        factor * ((with_back - square * back) * odd + (back - mu * with_back) * (even - left));
-    layer->sun_through = factor * ((on + with_on * mu) * (1.0f - left * even) -
-                                   left * (with_on + square * on) * odd) +
-                         exp(-depth / sun_up);
+    layer->sun_back = factor * ((with_back - square * back) * s->odd +
+                                (back - mu * with_back) * (s->even - left));
+    layer->sun_through = factor * ((on + with_on * mu) * (1.0f - left * s->even) -
+                                   left * (with_on + square * on) * s->odd) +
+                         exp(-s->depth / sun_up);
 }
 
 /* Solves a layer.
@@ -62,22 +85,14 @@ static inline void cloud_add_sun(cloud_layer *layer, spectrum depth, spectrum al
 static inline cloud_layer cloud_solve(spectrum depth, spectrum albedo, spectrum asymmetry,
                                       float sun_up)
 {
-    const spectrum peak = asymmetry * asymmetry, kept = 1.0f - albedo * peak;
-    const spectrum scaled_albedo = albedo * (1.0f - peak) / kept;
-    const spectrum scaled_asymmetry = asymmetry / (1.0f + asymmetry), scaled = depth * kept;
-    const spectrum second = 0.75f * scaled_albedo * (1.0f - scaled_asymmetry);
-    const spectrum absorbed = 2.0f * (1.0f - albedo) / kept, first = second + absorbed;
-    const spectrum eigenvalue = fmax(sqrt(absorbed * (first + second)), (spectrum)1e-6f);
-    const spectrum paths = fmin(eigenvalue * scaled, (spectrum)CLOUD_MOST_PATHS);
-    const spectrum even = cosh(paths), odd = sinh(paths) / eigenvalue;
+    const cloud_streams s = cloud_streams_of(depth, albedo, asymmetry);
     cloud_layer layer;
 
-    layer.diffuse_through = 1.0f / (even + first * odd);
-    layer.diffuse_back = second * odd * layer.diffuse_through;
+    layer.diffuse_through = 1.0f / (s.even + s.first * s.odd);
+    layer.diffuse_back = s.second * s.odd * layer.diffuse_through;
     layer.sun_back = layer.sun_through = (spectrum)0.0f;
     if (sun_up > 0.0f) {
-        cloud_add_sun(&layer, scaled, scaled_albedo, scaled_asymmetry, first, second, eigenvalue,
-                      even, odd, sun_up);
+        cloud_add_sun(&layer, &s, sun_up);
         layer.sun_through -= exp(-depth / sun_up);
     }
     return layer;
@@ -107,12 +122,12 @@ static inline spectrum cloud_source(spectrum depth, spectrum albedo, spectrum as
 
 #ifdef __OPENCL_C_VERSION__
 
-/* What the i-th material on a way sends for every share of light that it takes.
- *   rows   SPECTRA_...; extinction: see CLOUD_... */
-static inline spectrum cloud_of_way(global const float *rows, global const float *extinction,
-                                    radiometry_record frame, const transmission_path *path, uint i,
-                                    uint from_above, uint block)
+/* What the i-th material on a way sends for every share of light that it takes. */
+static inline spectrum cloud_of_way(const spectra_tables *t, radiometry_record frame,
+                                    const transmission_path *path, uint i, uint from_above,
+                                    uint block)
 {
+    global const float *rows = t->rows, *extinction = t->extinction;
     const uint row = frame.sample_count;
     const size_t medium = (size_t)path->medium[i] * row;
     const spectrum black_body = planck_radiance(
@@ -130,15 +145,15 @@ static inline spectrum cloud_of_way(global const float *rows, global const float
 }
 
 /* What comes through all bodies on a way, and from them; the nearest is the last that it meets. */
-static inline spectrum cloud_seen(spectrum radiance, global const float *rows,
-                                  global const float *extinction, radiometry_record frame,
-                                  const transmission_path *path, uint from_above, uint block)
+static inline spectrum cloud_seen(spectrum radiance, const spectra_tables *t,
+                                  radiometry_record frame, const transmission_path *path,
+                                  uint from_above, uint block)
 {
     for (uint i = TRANSMISSION_MEDIA; i-- > 0;)
         if (path->length_m[i] > 0.0f)
             radiance = transmission_through(
-                radiance, transmission_part(extinction, frame.sample_count, path, i, block),
-                cloud_of_way(rows, extinction, frame, path, i, from_above, block));
+                radiance, transmission_part(t->extinction, frame.sample_count, path, i, block),
+                cloud_of_way(t, frame, path, i, from_above, block));
     return radiance;
 }
 

@@ -54,9 +54,8 @@ static inline uint crossing_meets(const ray_frame *f, global const bvh_block *bl
 
 /* Adds the crossings of a leaf. Those behind the limit count at the limit: they tell what the ray is
  * inside of there. */
-static inline void crossing_leaf(const ray_frame *f, global const bvh_block *blocks,
-                                 global const uint *medium, const uint leaf, const float limit,
-                                 crossing_sum *sum)
+static inline void crossing_leaf(const ray_frame *f, const medium_tables *medium, const uint leaf,
+                                 const float limit, crossing_sum *sum)
 {
     const uint first = ray_block_of(leaf), count = leaf & 15;
 
@@ -64,11 +63,11 @@ static inline void crossing_leaf(const ray_frame *f, global const bvh_block *blo
         float8 range;
         float at[8];
         uint exits;
-        const uint entries = crossing_meets(f, blocks + b, &range, &exits);
+        const uint entries = crossing_meets(f, medium->medium_blocks + b, &range, &exits);
         vstore8(range, 0, at);
         for (uint mask = entries | exits; mask; mask &= mask - 1) {
             const uint i = 31 - clz(mask & -mask);
-            const uint m = medium[blocks[b].facet[i]];
+            const uint m = medium->medium_row[medium->medium_blocks[b].facet[i]];
             const float range_m = fmin(at[i], limit), sign = exits >> i & 1 ? 1.0f : -1.0f;
             sum->length[m] += sign * range_m;
             sum->moment[m] += sign * 0.5f * range_m * range_m;
@@ -97,14 +96,12 @@ static inline float crossing_start(const medium_world *media, const ray *r)
 }
 
 /* Sums up the crossings of a ray with a unit direction.
- *   medium      of every facet of the tree
  *   out_start   range where the sums begin to count; the lengths are inside up to the limit */
-static inline crossing_sum crossing_along(const medium_world *media, global const bvh_node *nodes,
-                                          global const bvh_block *blocks, global const uint *medium,
-                                          const ray *r, float *out_start)
+static inline crossing_sum crossing_along(const medium_tables *medium, const ray *r,
+                                          float *out_start)
 {
     crossing_sum sum = {{0.0f}, {0.0f}};
-    const float start = crossing_start(media, r);
+    const float start = crossing_start(&medium->media, r);
     uint stack[RAY_STACK_SIZE], depth = 1;
     ray near = *r;
 
@@ -117,11 +114,12 @@ static inline crossing_sum crossing_along(const medium_world *media, global cons
         const uint word = stack[--depth];
         float8 range;
         if (word & BVH_LEAF) {
-            crossing_leaf(&f, blocks, medium, word, r->limit - start, &sum);
+            crossing_leaf(&f, medium, word, r->limit - start, &sum);
             continue;
         }
-        uint mask = ray_enters(&f, nodes + word, MAXFLOAT, &range);
-        for (; mask; mask &= mask - 1) stack[depth++] = nodes[word].child[31 - clz(mask & -mask)];
+        uint mask = ray_enters(&f, medium->medium_nodes + word, MAXFLOAT, &range);
+        for (; mask; mask &= mask - 1)
+            stack[depth++] = medium->medium_nodes[word].child[31 - clz(mask & -mask)];
     }
     return sum;
 }
@@ -141,15 +139,12 @@ static inline float crossing_air_k(global const float *level, const uint count,
 }
 
 /* The bodies on a ray's way up to its limit. Its direction is unit. */
-static inline transmission_path crossing_path(const medium_world *media,
-                                              global const bvh_node *nodes,
-                                              global const bvh_block *blocks,
-                                              global const uint *medium, global const float *level,
-                                              const ray *r)
+static inline transmission_path crossing_path(const medium_tables *medium, const ray *r)
 {
+    const medium_world *media = &medium->media;
     transmission_path path = {{0.0f}, {0.0f}, {0.0f}, {0.0f}, {0}};
     float start;
-    const crossing_sum sum = crossing_along(media, nodes, blocks, medium, r, &start);
+    const crossing_sum sum = crossing_along(medium, r, &start);
     uint count = 0;
 
     for (uint m = 0; m < TRANSMISSION_MEDIA; m++) {
@@ -171,17 +166,19 @@ static inline transmission_path crossing_path(const medium_world *media,
             media->altitude_m + r->origin[2] + path.middle_m[i] * r->direction[2];
         const float stated_k = media->stated_k[path.medium[i]];
         path.temperature_k[i] =
-            stated_k > 0.0f ? stated_k : crossing_air_k(level, media->level_count, altitude_m);
+            stated_k > 0.0f ? stated_k
+                            : crossing_air_k(medium->air_level, media->level_count, altitude_m);
     }
     return path;
 }
 
 /* Sets how thick the materials that scatter are, straight up through the middle of the ray's way in
  * them; where that lies between two bodies of a material, as thick as the way is long. */
-static inline void crossing_set_vertical(const medium_world *media, global const bvh_node *nodes,
-                                         global const bvh_block *blocks, global const uint *medium,
-                                         const ray *r, transmission_path *path)
+static inline void crossing_set_vertical(const medium_tables *medium, const ray *r,
+                                         transmission_path *path)
 {
+    const medium_world *media = &medium->media;
+
     for (uint i = 0; i < TRANSMISSION_MEDIA && path->length_m[i] > 0.0f; i++) {
         ray up = {.direction = {0.0f, 0.0f, 1.0f}, .limit = INFINITY};
         float start;
@@ -189,7 +186,7 @@ static inline void crossing_set_vertical(const medium_world *media, global const
         for (int k = 0; k < 2; k++)
             up.origin[k] = fma(path->middle_m[i], r->direction[k], r->origin[k]);
         up.origin[2] = media->low[2] - 1.0f;
-        const crossing_sum sum = crossing_along(media, nodes, blocks, medium, &up, &start);
+        const crossing_sum sum = crossing_along(medium, &up, &start);
         const float through = sum.length[path->medium[i]];
         path->vertical_m[i] = through > 0.0f ? through : path->length_m[i];
     }

@@ -15,4 +15,18 @@ typedef struct medium_world {
 } medium_world;
 RECORD_SIZE(medium_world, 80);
 
+/* Transmissive bodies in a tree of their own.
+ *   medium_row   of every facet: its material's row of the extinction
+ *   air_level    shape (bodies.level_count, 2): altitude m, temperature K; altitudes ascend */
+#define MEDIUM_TABLES(TABLE, AND)                                                                  \
+    TABLE(medium_world, media)                                                                     \
+    AND TABLE(global const bvh_node *, medium_nodes)                                               \
+    AND TABLE(global const bvh_block *, medium_blocks)                                             \
+    AND TABLE(global const uint *, medium_row)                                                     \
+    AND TABLE(global const float *, air_level)
+
+#ifdef __OPENCL_C_VERSION__
+TABLES_STRUCT(medium_tables, MEDIUM_TABLES);
+#endif
+
 #endif

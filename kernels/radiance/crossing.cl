@@ -17,47 +17,42 @@ static ray between(const world_record *world, const float *from, const float *no
 /* The bodies on the four ways of a pixel: sensor to target or sky, target to sun, target to
  * background, background to sun; without such a way, none.
  * Launch: (frame.pixel_count).
- * nodes, blocks: of the bodies; medium: of every facet; level: see crossing_air_k
- * hit, background_hit: hit_record; lit, background_lit: 0 or 1: per pixel
- * paths: shape (TRANSMISSION_PATHS, pixel_count)
+ * out_paths: shape (TRANSMISSION_PATHS, pixel_count)
  * direct, background_direct: per pixel, what of the sun's broad band reaches them */
-SHARED_BODY kernel void
-crossing(const radiometry_record frame, const camera_record camera, const world_record world,
-         const medium_world media, global const bvh_node *nodes, global const bvh_block *blocks,
-         global const uint *medium, global const float *level, global const hit_record *hit,
-         global const hit_record *background_hit, global const float *lit,
-         global const float *background_lit, global transmission_path *paths, global float *direct,
-         global float *background_direct)
+SHARED_BODY kernel void crossing(const radiometry_record frame, const camera_record camera,
+                                 const world_record world, TABLES(MEDIUM_TABLES),
+                                 TABLES(PIXEL_TABLES), global transmission_path *out_paths,
+                                 global float *direct, global float *background_direct)
 {
     const uint pixel = get_global_id(0);
     if (pixel >= frame.pixel_count) return;
-    const hit_record at = hit[pixel], behind = background_hit[pixel];
+    const medium_tables medium = TABLES_GIVEN(MEDIUM_TABLES);
+    const pixel_tables pixels = TABLES_GIVEN(PIXEL_TABLES);
+    const hit_record at = pixels.hit[pixel];
+    const background_record behind = pixels.background[pixel];
     const transmission_path none = {{0.0f}, {0.0f}, {0.0f}, {0.0f}, {0}};
     transmission_path found[TRANSMISSION_PATHS] = {none, none, none, none};
     ray r = {.limit = at.facet == RECORD_NONE ? INFINITY : at.range_m};
 
     camera_origin(camera, frame.columns, frame.first_pixel + pixel, r.origin);
     pixel_ray(camera, frame.columns, frame.first_pixel + pixel, r.direction);
-    found[TRANSMISSION_CAMERA] = crossing_path(&media, nodes, blocks, medium, level, &r);
-    if (!frame.thesis)
-        crossing_set_vertical(&media, nodes, blocks, medium, &r, &found[TRANSMISSION_CAMERA]);
+    found[TRANSMISSION_CAMERA] = crossing_path(&medium, &r);
+    if (!frame.thesis) crossing_set_vertical(&medium, &r, &found[TRANSMISSION_CAMERA]);
     if (at.facet != RECORD_NONE && frame.sun[2] > 0.0f) {
         r = ray_leaving(&world, at.point, at.normal, frame.sun);
-        found[TRANSMISSION_SUN] = crossing_path(&media, nodes, blocks, medium, level, &r);
+        found[TRANSMISSION_SUN] = crossing_path(&medium, &r);
     }
     if (at.facet != RECORD_NONE && behind.facet != RECORD_NONE) {
         r = between(&world, at.point, at.normal, behind.point);
-        found[TRANSMISSION_BACKGROUND] = crossing_path(&media, nodes, blocks, medium, level, &r);
+        found[TRANSMISSION_BACKGROUND] = crossing_path(&medium, &r);
         r = ray_leaving(&world, behind.point, behind.normal, frame.sun);
-        if (frame.sun[2] > 0.0f)
-            found[TRANSMISSION_BACKGROUND_SUN] =
-                crossing_path(&media, nodes, blocks, medium, level, &r);
+        if (frame.sun[2] > 0.0f) found[TRANSMISSION_BACKGROUND_SUN] = crossing_path(&medium, &r);
     }
     for (uint p = 0; p < TRANSMISSION_PATHS; p++)
-        paths[(size_t)p * frame.pixel_count + pixel] = found[p];
-    direct[pixel] =
-        lit[pixel] * transmission_broad_band(media.broad_band_per_m, &found[TRANSMISSION_SUN]);
+        out_paths[(size_t)p * frame.pixel_count + pixel] = found[p];
+    direct[pixel] = pixels.sunlit[pixel] * transmission_broad_band(medium.media.broad_band_per_m,
+                                                                   &found[TRANSMISSION_SUN]);
     background_direct[pixel] =
-        background_lit[pixel] *
-        transmission_broad_band(media.broad_band_per_m, &found[TRANSMISSION_BACKGROUND_SUN]);
+        pixels.background_sunlit[pixel] *
+        transmission_broad_band(medium.media.broad_band_per_m, &found[TRANSMISSION_BACKGROUND_SUN]);
 }

@@ -18,6 +18,7 @@ typedef struct incident_face {
 
 /* Those that the lanes see through the cells of a part. Neighbours see the same. */
 typedef struct incident_faces {
+    incident_part part;
     incident_face face[LANES_WIDTH * ROUND];
     uint count;
     ushort slot[FACE_SLOTS]; /* face + 1; 0: none */
@@ -26,15 +27,14 @@ typedef struct incident_faces {
 static inline uint incident_add_face(incident_faces *faces, const incident_tables *t, uint word,
                                      uint is_back)
 {
-    const around *from = &t->from;
     const uint facet = word & ~HEMISPHERE_LIT;
     const float lit = word & HEMISPHERE_LIT ? 1.0f : 0.0f;
 
     faces->face[faces->count] =
         (incident_face){.word = word,
                         .is_back = is_back,
-                        .seen = see_face(*from, t->frame, facet, 1.0f, lit, is_back),
-                        .material = from->facets[facet].material};
+                        .seen = see_face(&t->emitters, t->frame, facet, 1.0f, lit, is_back),
+                        .material = t->emitters.surfaces.facets[facet].material};
     return faces->count++;
 }
 
@@ -65,7 +65,7 @@ static inline void incident_see_faces(incident_faces *faces, incident_rays *rays
     if (!view.met) return;
     for (uint left = view.met, those; left; left &= ~those) {
         const uint i = incident_first_of(left), word = ((const uint *)&view.word)[i];
-        global const float *normal = t->from.facets[word & ~HEMISPHERE_LIT].normal;
+        global const float *normal = t->emitters.surfaces.facets[word & ~HEMISPHERE_LIT].normal;
         const lanes towards = normal[0] * view.direction[0] + normal[1] * view.direction[1] +
                               normal[2] * view.direction[2];
         const uint behind = lanes_bits_of(towards > 0.0f), is_back = behind >> i & 1u;
@@ -90,16 +90,16 @@ static inline void incident_light_faces(const incident_faces *faces, const incid
                                         uint block, uint b, face_light *out)
 {
     const uint row = t->frame.sample_count;
-    const spectrum first = spectrum_load(t->spectra + SPECTRA_PLANCK_FIRST * row, block);
-    const spectrum second = spectrum_load(t->spectra + SPECTRA_PLANCK_SECOND * row, block);
-    const spectrum sun = spectrum_load(t->spectra + SPECTRA_SUN * row, block);
-    const spectrum sky = spectrum_load(t->spectra + SPECTRA_SKY * row, block);
+    const spectrum first = spectrum_load(t->spectra.rows + SPECTRA_PLANCK_FIRST * row, block);
+    const spectrum second = spectrum_load(t->spectra.rows + SPECTRA_PLANCK_SECOND * row, block);
+    const spectrum sun = spectrum_load(t->spectra.rows + SPECTRA_SUN * row, block);
+    const spectrum sky = spectrum_load(t->spectra.rows + SPECTRA_SKY * row, block);
 
     for (uint k = 0; k < faces->count; k++) {
         const incident_facet *seen = &faces->face[k].seen;
         const spectrum black_body = planck_radiance(first, second, seen->temperature_k);
-        const spectrum arriving =
-            incident_arriving(seen, black_body, sun, sky, light_of(t->from, seen->facet, block));
+        const spectrum arriving = incident_arriving(seen, black_body, sun, sky,
+                                                    light_of(&t->emitters, seen->facet, block));
         out[k].arriving[b] = arriving;
         out[k].more[b] = black_body - arriving;
     }
@@ -124,7 +124,8 @@ INLINE void incident_from_faces(const incident_rays *rays, uint lane, const face
             const face_light *from = &light[ray.target];
             UNROLL
             for (uint b = 0; b < side; b++) {
-                const spectrum own = lookup_spectrum(t->emissivity, row, ray.emissivity, block + b);
+                const spectrum own =
+                    lookup_spectrum(t->spectra.emissivity, row, ray.emissivity, block + b);
                 sum[b] =
                     fma((spectrum)ray.weight, fma(own, from->more[b], from->arriving[b]), sum[b]);
             }
@@ -137,8 +138,7 @@ INLINE void incident_from_faces(const incident_rays *rays, uint lane, const face
 /* Adds what the faces send to `side` blocks of samples of the lanes. */
 INLINE void incident_add_blocks(const incident_faces *faces, const incident_rays *rays,
                                 const incident_group *g, const incident_tables *t,
-                                incident_part part, face_light *light, uint block, const uint side,
-                                global float *out)
+                                face_light *light, uint block, const uint side, global float *out)
 {
     incident_lobe lobe;
     spectrum sum[SIDE];
@@ -152,7 +152,7 @@ INLINE void incident_add_blocks(const incident_faces *faces, const incident_rays
             incident_from_faces(rays, i, light, &lobe, t, block, side, sum);
             UNROLL
             for (uint b = 0; b < side; b++)
-                incident_add(sum[b], 1.0f - g->specular[i], part, to, block + b);
+                incident_add(sum[b], 1.0f - g->specular[i], faces->part, to, block + b);
         }
     }
 }
@@ -169,6 +169,7 @@ static inline void incident_add_faces(const incident_group *g, const incident_ta
     uint block = 0;
 
     incident_clear_rays(&rays);
+    faces.part = part;
     faces.count = 0u;
     for (uint k = 0; k < FACE_SLOTS; k++) faces.slot[k] = 0u;
     for (uint c = part.first; c < part.end; c++) {
@@ -176,9 +177,8 @@ static inline void incident_add_faces(const incident_group *g, const incident_ta
         incident_end_cell(&rays, ring_of_cell(t->cells, c));
     }
     for (; block + SIDE <= blocks; block += SIDE)
-        incident_add_blocks(&faces, &rays, g, t, part, light, block, SIDE, out);
-    for (; block < blocks; block++)
-        incident_add_blocks(&faces, &rays, g, t, part, light, block, 1u, out);
+        incident_add_blocks(&faces, &rays, g, t, light, block, SIDE, out);
+    for (; block < blocks; block++) incident_add_blocks(&faces, &rays, g, t, light, block, 1u, out);
 }
 
 #endif

@@ -14,9 +14,11 @@
 /* What all that arrives is read from; see incident.cl. */
 typedef struct incident_tables {
     radiometry_record frame;
-    around from;
+    incident_record params;
+    emitter_tables emitters;
     incident_cells cells;
-    global const float *dome, *spectra, *emissivity;
+    spectra_tables spectra;
+    global const float *dome;
 } incident_tables;
 
 /* Such cells: from `first` to before `end`. */
@@ -60,10 +62,10 @@ static inline void incident_find_columns(incident_group *g)
 
 /* Takes pixels from place `first` on, and looks at what their rays met. */
 static inline incident_group incident_take_group(uint first, const incident_tables *t,
-                                                 global const hit_record *hit,
-                                                 global const uint *order)
+                                                 const hemisphere_tables *rays)
 {
-    const around *from = &t->from;
+    const surface_tables *surfaces = &t->emitters.surfaces;
+    global const hit_record *hit = rays->hit;
     incident_group g = {.first = first};
     incident_cells cells = t->cells;
     lanes normal[3] = {(lanes)0.0f, (lanes)0.0f, (lanes)1.0f};
@@ -72,14 +74,14 @@ static inline incident_group incident_take_group(uint first, const incident_tabl
     for (uint i = 0; i < LANES_WIDTH; i++) {
         g.specular[i] = 0.0f;
         g.lobe[i] = RECORD_NONE;
-        if (i < g.lane_count) g.point[i] = hemisphere_point(order, first + i);
+        if (i < g.lane_count) g.point[i] = hemisphere_point(rays->order, first + i);
         if (i >= g.lane_count || hit[first + i].facet == RECORD_NONE) continue;
-        const uint material = from->facets[hit[first + i].facet].material;
-        if (!from->how.is_of_facets) g.specular[i] = from->materials[material].specular_share;
+        const uint material = surfaces->facets[hit[first + i].facet].material;
+        if (!t->params.is_of_facets) g.specular[i] = surfaces->materials[material].specular_share;
         for (int k = 0; k < 3; k++) LANES_SET(normal[k], i, hit[first + i].normal[k]);
         if (g.specular[i] == 1.0f) continue;
         g.diffuse |= 1u << i;
-        g.lobe[i] = from->materials[material].lobe_first;
+        g.lobe[i] = surfaces->materials[material].lobe_first;
     }
     if (!g.diffuse) cells.count = 0u;
     g.view = look_around(normal, cells, first, t->frame.pixel_count);
@@ -101,9 +103,9 @@ INLINE void incident_find_lobe(incident_lobe *out, const incident_group *g, uint
     UNROLL
     for (uint b = 0; b < side; b++) {
         const spectrum scale =
-            1.0f / lobe_sum(&g->view, lane, rings, t->emissivity, row, lobe, block + b);
+            1.0f / lobe_sum(&g->view, lane, rings, t->spectra.emissivity, row, lobe, block + b);
         for (uint r = 0; r < rings; r++)
-            out->ring[r][b] = scale * lobe_of_ring(t->emissivity, row, lobe, r, block + b);
+            out->ring[r][b] = scale * lobe_of_ring(t->spectra.emissivity, row, lobe, r, block + b);
     }
 }
 

@@ -6,15 +6,12 @@
 #include "kernels/radiance/incident.h"
 #include "kernels/radiance/pixel.h"
 
-/* What the surfaces around a pixel are read from. */
-typedef struct around {
-    global const facet_record *facets;
-    global const material_record *materials;
-    global const float *temperature_k;
-    global const background_record *facet_background;
-    global const float *light; /* shape (facets, LIGHT_ROWS, how.light_length) */
-    incident_record how;
-} around;
+/* What the surfaces around a pixel emit and reflect is read from these. */
+typedef struct emitter_tables {
+    surface_tables surfaces;
+    light_tables light;
+    uint light_length; /* floats of a row of it */
+} emitter_tables;
 
 /* A row of light for a block of the pixels' samples: LIGHT_BLOCK of them share a float. */
 static inline spectrum light_at(global const float *row, uint block)
@@ -25,10 +22,10 @@ static inline spectrum light_at(global const float *row, uint block)
 }
 
 /* Light of a facet for a block of the pixels' samples. */
-static inline incident_light light_of(around from, uint facet, uint block)
+static inline incident_light light_of(const emitter_tables *t, uint facet, uint block)
 {
-    const uint length = from.how.light_length;
-    global const float *light = from.light + (size_t)facet * LIGHT_ROWS * length;
+    const uint length = t->light_length;
+    global const float *light = t->light.light + (size_t)facet * LIGHT_ROWS * length;
 
     return (incident_light){light_at(light + LIGHT_LOBE * length, block),
                             light_at(light + LIGHT_EXTRA * length, block)};
@@ -36,31 +33,31 @@ static inline incident_light light_of(around from, uint facet, uint block)
 
 /* A side of a facet without its emissivity.
  *   is_back   1: the side that its normal does not leave */
-static inline incident_facet see_face(around from, radiometry_record frame, uint facet,
+static inline incident_facet see_face(const emitter_tables *t, radiometry_record frame, uint facet,
                                       float weight, float lit, uint is_back)
 {
-    const facet_record own = from.facets[facet];
+    const facet_record own = t->surfaces.facets[facet];
     const float facing = is_back ? -1.0f : 1.0f;
     incident_facet out;
 
     out.facet = facet;
     out.weight = weight;
-    out.temperature_k = from.temperature_k[facet];
+    out.temperature_k = t->surfaces.facet_temperature_k[facet];
     out.sun = lit * fmax(facing * pixel_dot(own.normal, frame.sun), 0.0f);
-    out.shape_factor = from.facet_background[facet].shape_factor;
+    out.shape_factor = t->light.facet_background[facet].shape_factor;
     return out;
 }
 
 /* A facet seen from a point along a unit direction. */
-static inline incident_facet see_facet(around from, radiometry_record frame, uint facet,
+static inline incident_facet see_facet(const emitter_tables *t, radiometry_record frame, uint facet,
                                        float weight, float lit, const float *direction)
 {
-    const facet_record seen = from.facets[facet];
+    const facet_record seen = t->surfaces.facets[facet];
     const float along = pixel_dot(seen.normal, direction);
-    incident_facet out = see_face(from, frame, facet, weight, lit, along > 0.0f);
+    incident_facet out = see_face(t, frame, facet, weight, lit, along > 0.0f);
 
     out.emissivity =
-        lookup_emissivity(from.materials[seen.material], pixel_angle_deg(fabs(along)), 0u);
+        lookup_emissivity(t->surfaces.materials[seen.material], pixel_angle_deg(fabs(along)), 0u);
     return out;
 }
 

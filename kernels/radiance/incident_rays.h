@@ -67,7 +67,7 @@ static inline void incident_add_rays(incident_rays *rays, const incident_view *v
 
     for (uint bits = view->met; bits; bits &= bits - 1u) {
         const uint i = incident_first_of(bits);
-        global const material_record *material = t->from.materials + aim->material[i];
+        global const material_record *material = t->emitters.surfaces.materials + aim->material[i];
         const uint first = material->emissivity_first, last = material->emissivity_angles - 1u;
         const uint low = (uint)lane_of(&row, i);
         incident_ray *ray = &rays->ray[i][rays->count[i]++];
@@ -91,7 +91,8 @@ static inline void incident_see_facets(incident_rays *rays, const incident_group
     for (uint bits = view.met; bits; bits &= bits - 1u) {
         const uint i = incident_first_of(bits);
         aim.target[i] = ((const uint *)&view.word)[i];
-        global const facet_record *facet = t->from.facets + (aim.target[i] & ~HEMISPHERE_LIT);
+        global const facet_record *facet =
+            t->emitters.surfaces.facets + (aim.target[i] & ~HEMISPHERE_LIT);
         aim.material[i] = facet->material;
         for (uint k = 0; k < 3u; k++) LANES_SET(normal[k], i, facet->normal[k]);
     }
@@ -114,8 +115,8 @@ static inline spectrum incident_from_facets(const incident_rays *rays, uint lane
         for (; n < rays->ring_end[r][lane]; n++) {
             const incident_ray ray = rays->ray[lane][n];
             const uint facet = ray.target & ~HEMISPHERE_LIT;
-            global const float *light = t->from.light + (size_t)facet * LIGHT_ROWS * row;
-            const spectrum own = lookup_spectrum(t->emissivity, row, ray.emissivity, block);
+            global const float *light = t->emitters.light.light + (size_t)facet * LIGHT_ROWS * row;
+            const spectrum own = lookup_spectrum(t->spectra.emissivity, row, ray.emissivity, block);
             spectrum arriving = spectrum_load(light + LIGHT_ARRIVING * row, block);
             if (ray.target & HEMISPHERE_LIT)
                 arriving += spectrum_load(light + LIGHT_SUN * row, block);

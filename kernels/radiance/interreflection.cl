@@ -4,42 +4,42 @@
  * radiance that reaches them differs from what incident.h closes it with. Exact mode.
  * Launch: (frame.pixel_count); the frame's samples are the means of blocks of samples
  * hit: (pixel_count): which facets these are; NULL: the first ones
- * facets, temperature_k, facet_background: per facet; materials: per material
- * spectra, emissivity: as radiometry.cl, of the frame's samples
+ * facet_background: per facet
  * arriving: (pixel_count, 2, sample_count): radiance of sky and of facets that reaches these; NULL: as
  *   closed
  * light: (facets, LIGHT_ROWS, sample_count) */
 kernel void interreflection(const radiometry_record frame, OPTIONAL global const hit_record *hit,
-                            global const facet_record *facets,
-                            global const material_record *materials,
-                            global const float *temperature_k,
+                            TABLES(SURFACE_TABLES),
                             global const background_record *facet_background,
-                            global const float *spectra, global const float *emissivity,
-                            OPTIONAL global const float *arriving, global float *light)
+                            TABLES(SPECTRA_TABLES), OPTIONAL global const float *arriving,
+                            global float *light)
 {
     const uint i = get_global_id(0), row = frame.sample_count;
     if (i >= frame.pixel_count) return;
     const uint facet = hit ? hit[i].facet : i;
     if (facet == RECORD_NONE) return;
-    const facet_record own = facets[facet];
-    const material_record material = materials[own.material];
+    const surface_tables surfaces = TABLES_GIVEN(SURFACE_TABLES);
+    const spectra_tables spectra = TABLES_GIVEN(SPECTRA_TABLES);
+    const facet_record own = surfaces.facets[facet];
+    const material_record material = surfaces.materials[own.material];
     const float fraction = facet_background[facet].shape_factor;
     const float facing_sun = fabs(pixel_dot(own.normal, frame.sun));
     const lookup at_sun = lookup_emissivity(material, pixel_angle_deg(facing_sun), 0u);
     global float *to = light + (size_t)facet * LIGHT_ROWS * row;
 
     for (uint block = 0; block < row / SPECTRUM_WIDTH; block++) {
-        const spectrum black = planck_radiance(
-            spectrum_load(spectra + SPECTRA_PLANCK_FIRST * row, block),
-            spectrum_load(spectra + SPECTRA_PLANCK_SECOND * row, block), temperature_k[facet]);
-        const spectrum sun = spectrum_load(spectra + SPECTRA_SUN * row, block);
-        const spectrum sky = spectrum_load(spectra + SPECTRA_SKY * row, block);
+        const spectrum black =
+            planck_radiance(spectrum_load(spectra.rows + SPECTRA_PLANCK_FIRST * row, block),
+                            spectrum_load(spectra.rows + SPECTRA_PLANCK_SECOND * row, block),
+                            surfaces.facet_temperature_k[facet]);
+        const spectrum sun = spectrum_load(spectra.rows + SPECTRA_SUN * row, block);
+        const spectrum sky = spectrum_load(spectra.rows + SPECTRA_SKY * row, block);
         const spectrum closed = radiance_from_above(fraction, sky, black);
         spectrum of_sun = (spectrum)1.0f, more = (spectrum)0.0f;
         if (material.lobe_first != RECORD_NONE)
-            of_sun =
-                lobe_diffuse(lookup_spectrum(emissivity, row, at_sun, block),
-                             spectrum_load(emissivity + (size_t)material.lobe_first * row, block));
+            of_sun = lobe_diffuse(
+                lookup_spectrum(spectra.emissivity, row, at_sun, block),
+                spectrum_load(spectra.emissivity + (size_t)material.lobe_first * row, block));
         if (arriving) {
             global const float *from_sky = arriving + (size_t)i * 2u * row;
             more = spectrum_load(from_sky, block) + spectrum_load(from_sky + row, block) - closed;

@@ -3,9 +3,11 @@
 #define PIXEL_H
 
 #include "kernels/media/air_path.h"
+#include "kernels/media/transmission.h"
 #include "kernels/radiance/lobe.h"
 #include "kernels/radiance/sky.h"
 #include "kernels/rays/camera.h"
+#include "kernels/tables.h"
 
 /* Interactions of a ray with the scene, as the plane `interaction` holds them (Figure 3-10). */
 #define INTERACTION_MISSED 0u
@@ -14,6 +16,25 @@
 #define INTERACTION_SPECULAR_BACKGROUND 3u
 #define INTERACTION_PARTLY_SKY 4u /* a specular share between 0 and 1 */
 #define INTERACTION_PARTLY_BACKGROUND 5u
+
+/* Pixels of a tile.
+ *   sunlit, background_sunlit   what of the sun reaches the target, and its background: 0..1
+ *   temperature_k               of the target
+ *   paths      shape (TRANSMISSION_PATHS, count), see crossing.cl; NULL: no bodies
+ *   incident   shape (count, 2, knot_count), see incident.cl; NULL in thesis mode, which takes the mean
+ *              background instead */
+#define PIXEL_TABLES(TABLE, AND)                                                                   \
+    TABLE(global const hit_record *, hit)                                                          \
+    AND TABLE(global const background_record *, background)                                        \
+    AND TABLE(global const float *, temperature_k)                                                 \
+    AND TABLE(global const float *, sunlit)                                                        \
+    AND TABLE(global const float *, background_sunlit)                                             \
+    AND TABLE(OPTIONAL global const transmission_path *, paths)                                    \
+    AND TABLE(OPTIONAL global const float *, incident)
+
+#ifdef __OPENCL_C_VERSION__
+TABLES_STRUCT(pixel_tables, PIXEL_TABLES);
+#endif
 
 typedef struct pixel_state {
     uint interaction;

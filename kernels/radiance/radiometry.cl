@@ -3,45 +3,41 @@
 #include "kernels/radiance/pixel.h"
 #include "kernels/radiance/radiometry.h"
 
-/* What the spectra of all pixels are read from. */
-typedef struct spectra_tables {
-    global const float *rows;       /* shape (rows, sample_count): SPECTRA_... of records.h */
-    global const float *emissivity; /* shape (rows, sample_count) */
-    global const float *incident;   /* of this pixel: shape (2, knot_count); NULL: thesis mode */
-    global const uint *knot_first;  /* how samples lie between knots: see below */
-    global const float *knot_fraction;
-    global const float *extinction;        /* see cloud.h; NULL: no media */
-    global const transmission_path *media; /* of this pixel: shape (TRANSMISSION_PATHS), strided */
-} spectra_tables;
+/* What the spectra of a pixel are read from. */
+typedef struct pixel_spectra {
+    spectra_tables of;                     /* all pixels */
+    global const float *incident;          /* shape (2, knot_count); NULL: thesis mode */
+    global const transmission_path *paths; /* shape (TRANSMISSION_PATHS), strided */
+} pixel_spectra;
 
-static spectrum load_row(spectra_tables tables, radiometry_record frame, uint row, uint block)
+static spectrum load_row(pixel_spectra tables, radiometry_record frame, uint row, uint block)
 {
-    return spectrum_load(tables.rows + (size_t)row * frame.sample_count, block);
+    return spectrum_load(tables.of.rows + (size_t)row * frame.sample_count, block);
 }
 
-static global const float *sky_rows(spectra_tables tables, radiometry_record frame)
+static global const float *sky_rows(pixel_spectra tables, radiometry_record frame)
 {
-    return tables.rows + (size_t)(SPECTRA_PATHS + 2u * frame.path_count) * frame.sample_count;
+    return tables.of.rows + (size_t)(SPECTRA_PATHS + 2u * frame.path_count) * frame.sample_count;
 }
 
-static transmission_path load_path(spectra_tables tables, radiometry_record frame, uint path)
+static transmission_path load_path(pixel_spectra tables, radiometry_record frame, uint path)
 {
-    return tables.media[(size_t)path * frame.pixel_count];
+    return tables.paths[(size_t)path * frame.pixel_count];
 }
 
 /* E_S tau1, and tau1c or tau_SB of bodies on the sun's way. */
-static spectrum load_sun(spectra_tables tables, radiometry_record frame, uint path, uint block)
+static spectrum load_sun(pixel_spectra tables, radiometry_record frame, uint path, uint block)
 {
     const spectrum sun = load_row(tables, frame, SPECTRA_SUN, block);
 
-    if (!tables.extinction) return sun;
+    if (!tables.of.extinction) return sun;
     const transmission_path media = load_path(tables, frame, path);
-    return sun * transmission_along(tables.extinction, frame.sample_count, &media, block);
+    return sun * transmission_along(tables.of.extinction, frame.sample_count, &media, block);
 }
 
 /* What the target gets of the sun, still to be multiplied by (1 - e): as eq. 2.4-2 has it, and in
  * exact mode by its lobes. */
-static spectrum load_sun_on_target(const pixel_state *pixel, spectra_tables tables,
+static spectrum load_sun_on_target(const pixel_state *pixel, pixel_spectra tables,
                                    radiometry_record frame, uint block)
 {
     const uint row = frame.sample_count;
@@ -49,27 +45,27 @@ static spectrum load_sun_on_target(const pixel_state *pixel, spectra_tables tabl
     spectrum diffuse = sun_on_surface(sun, pixel->sunlit, pixel->sun_cosine);
 
     if (pixel->lobe_row != RECORD_NONE)
-        diffuse *=
-            lobe_diffuse(lookup_spectrum(tables.emissivity, row, pixel->sun_emissivity, block),
-                         spectrum_load(tables.emissivity + (size_t)pixel->lobe_row * row, block));
+        diffuse *= lobe_diffuse(
+            lookup_spectrum(tables.of.emissivity, row, pixel->sun_emissivity, block),
+            spectrum_load(tables.of.emissivity + (size_t)pixel->lobe_row * row, block));
     if (pixel->specular_share == 0.0f) return diffuse;
     return diffuse * (1.0f - pixel->specular_share) +
            sun * (pixel->specular_share * pixel->sunlit * pixel->glint);
 }
 
 /* What is seen through the bodies on a way, and they themselves. */
-static spectrum see_through(spectrum radiance, spectra_tables tables, radiometry_record frame,
+static spectrum see_through(spectrum radiance, pixel_spectra tables, radiometry_record frame,
                             uint path, uint block)
 {
-    if (!tables.extinction) return radiance;
+    if (!tables.of.extinction) return radiance;
     const transmission_path media = load_path(tables, frame, path);
-    return cloud_seen(radiance, tables.rows, tables.extinction, frame, &media, 0u, block);
+    return cloud_seen(radiance, &tables.of, frame, &media, 0u, block);
 }
 
 /* Puts the bodies on the sensor's way into its transmission and radiance. As printed (eq. 2.4-1) all
  * of the air's radiance stands before them; exact mode has them where they are in the air. Before
  * the sky, which is all path, nothing else stands in thesis mode. */
-static void put_bodies(const pixel_state *pixel, spectra_tables tables, radiometry_record frame,
+static void put_bodies(const pixel_state *pixel, pixel_spectra tables, radiometry_record frame,
                        const air_record *air, uint block, air_terms *terms)
 {
     const transmission_path media = load_path(tables, frame, TRANSMISSION_CAMERA);
@@ -79,15 +75,14 @@ static void put_bodies(const pixel_state *pixel, spectra_tables tables, radiomet
 
     for (uint i = 0; i < TRANSMISSION_MEDIA && media.length_m[i] > 0.0f; i++) {
         const spectrum own =
-            transmission_part(tables.extinction, frame.sample_count, &media, i, block);
+            transmission_part(tables.of.extinction, frame.sample_count, &media, i, block);
         air_terms upto = {(spectrum)1.0f,
                           pixel->interaction == INTERACTION_MISSED ? nothing : terms->radiance};
         if (!frame.thesis)
-            upto = air_upto(tables.rows, frame, air, pixel->way, media.middle_m[i], block);
-        sum +=
-            through * (upto.radiance - before) +
-            through * upto.transmission * (1.0f - own) *
-                cloud_of_way(tables.rows, tables.extinction, frame, &media, i, from_above, block);
+            upto = air_upto(tables.of.rows, frame, air, pixel->way, media.middle_m[i], block);
+        sum += through * (upto.radiance - before) +
+               through * upto.transmission * (1.0f - own) *
+                   cloud_of_way(&tables.of, frame, &media, i, from_above, block);
         before = upto.radiance;
         through *= own;
     }
@@ -101,14 +96,14 @@ typedef struct from_above {
     spectrum sky, background;
 } from_above;
 
-static spectrum mean_background(const pixel_state *pixel, spectra_tables tables,
+static spectrum mean_background(const pixel_state *pixel, pixel_spectra tables,
                                 radiometry_record frame, uint block)
 {
     const spectrum first = load_row(tables, frame, SPECTRA_PLANCK_FIRST, block);
     const spectrum second = load_row(tables, frame, SPECTRA_PLANCK_SECOND, block);
     const spectrum sun = load_sun(tables, frame, TRANSMISSION_BACKGROUND_SUN, block);
-    const spectrum emissivity =
-        lookup_spectrum(tables.emissivity, frame.sample_count, pixel->background_emissivity, block);
+    const spectrum emissivity = lookup_spectrum(tables.of.emissivity, frame.sample_count,
+                                                pixel->background_emissivity, block);
     const spectrum radiance = background_radiance(
         emissivity, planck_radiance(first, second, pixel->background_temperature_k),
         sun_on_surface(sun, pixel->background_sunlit, pixel->background_sun_cosine));
@@ -118,7 +113,7 @@ static spectrum mean_background(const pixel_state *pixel, spectra_tables tables,
 }
 
 /* What rays brought, which is known at knots, at samples. */
-static from_above between_knots(spectra_tables tables, radiometry_record frame, uint block)
+static from_above between_knots(pixel_spectra tables, radiometry_record frame, uint block)
 {
     global const float *sky = tables.incident, *background = sky + frame.knot_count;
     from_above out = {(spectrum)0.0f, (spectrum)0.0f};
@@ -126,8 +121,8 @@ static from_above between_knots(spectra_tables tables, radiometry_record frame, 
     if (frame.knot_span == 0u)
         return (from_above){spectrum_load(sky, block), spectrum_load(background, block)};
     const uint sample = block * SPECTRUM_WIDTH, whole = sample / SPECTRA_BLOCK;
-    const uint first = tables.knot_first[whole];
-    global const float *fraction = tables.knot_fraction +
+    const uint first = tables.of.knot_first[whole];
+    global const float *fraction = tables.of.knot_fraction +
                                    (size_t)whole * frame.knot_span * SPECTRA_BLOCK +
                                    sample % SPECTRA_BLOCK;
     for (uint k = 0; k < frame.knot_span; k++) {
@@ -138,7 +133,7 @@ static from_above between_knots(spectra_tables tables, radiometry_record frame, 
     return out;
 }
 
-static from_above look_above(const pixel_state *pixel, spectra_tables tables,
+static from_above look_above(const pixel_state *pixel, pixel_spectra tables,
                              radiometry_record frame, uint block)
 {
     from_above out = {(spectrum)0.0f, (spectrum)0.0f};
@@ -162,7 +157,7 @@ typedef struct block_terms {
 } block_terms;
 
 /* A block of a pixel that met a target. */
-static block_terms look_at_target(const pixel_state *pixel, spectra_tables tables,
+static block_terms look_at_target(const pixel_state *pixel, pixel_spectra tables,
                                   radiometry_record frame, const air_record *air, uint block)
 {
     const uint row = frame.sample_count;
@@ -170,11 +165,12 @@ static block_terms look_at_target(const pixel_state *pixel, spectra_tables table
         load_row(tables, frame, SPECTRA_PLANCK_FIRST, block),
         load_row(tables, frame, SPECTRA_PLANCK_SECOND, block), pixel->temperature_k);
     const spectrum sun = load_sun_on_target(pixel, tables, frame, block);
-    const spectrum emissivity = lookup_spectrum(tables.emissivity, row, pixel->emissivity, block);
-    air_terms terms = air_upto(tables.rows, frame, air, pixel->way, pixel->way.limit_m, block);
+    const spectrum emissivity =
+        lookup_spectrum(tables.of.emissivity, row, pixel->emissivity, block);
+    air_terms terms = air_upto(tables.of.rows, frame, air, pixel->way, pixel->way.limit_m, block);
     const from_above above = look_above(pixel, tables, frame, block);
 
-    if (tables.extinction) put_bodies(pixel, tables, frame, air, block, &terms);
+    if (tables.of.extinction) put_bodies(pixel, tables, frame, air, block, &terms);
     const spectrum tau2 = terms.transmission, path = terms.radiance;
     const spectrum reflected = tau2 * (1.0f - emissivity);
     const block_terms out = {
@@ -186,19 +182,19 @@ static block_terms look_at_target(const pixel_state *pixel, spectra_tables table
 }
 
 /* The same where nothing was met: the sky of the ray's direction, all of it path. */
-static block_terms look_at_sky(const pixel_state *pixel, spectra_tables tables,
+static block_terms look_at_sky(const pixel_state *pixel, pixel_spectra tables,
                                radiometry_record frame, const air_record *air, uint block)
 {
     const spectrum none = (spectrum)0.0f;
     air_terms sky = {(spectrum)1.0f,
                      sky_radiance(sky_rows(tables, frame), frame, pixel->sky, block)};
 
-    if (tables.extinction) put_bodies(pixel, tables, frame, air, block, &sky);
+    if (tables.of.extinction) put_bodies(pixel, tables, frame, air, block, &sky);
     const block_terms out = {sky.radiance, {none, none, none, none, sky.radiance, none}};
     return out;
 }
 
-static block_terms look(const pixel_state *pixel, spectra_tables tables, radiometry_record frame,
+static block_terms look(const pixel_state *pixel, pixel_spectra tables, radiometry_record frame,
                         const air_record *air, uint block)
 {
     if (pixel->interaction == INTERACTION_MISSED)
@@ -220,11 +216,11 @@ static void store_emissivities(const pixel_state *pixel, global emissivity_recor
 }
 
 static pixel_state pixel_look(radiometry_record frame, const air_record *air, camera_record camera,
-                              uint pixel, hit_record hit, background_record background,
-                              float sunlit, float background_sunlit,
-                              global const facet_record *facets,
-                              global const material_record *materials, float temperature_k)
+                              const surface_tables *surfaces, const pixel_tables *pixels,
+                              uint pixel)
 {
+    const hit_record hit = pixels->hit[pixel];
+    const background_record background = pixels->background[pixel];
     pixel_state state = {0};
     float ray[3];
 
@@ -234,15 +230,15 @@ static pixel_state pixel_look(radiometry_record frame, const air_record *air, ca
         state.sky = sky_find(frame, ray[0], ray[1], ray[2]);
         return state;
     }
-    state.temperature_k = temperature_k;
-    state.sunlit = sunlit;
+    state.temperature_k = pixels->temperature_k[pixel];
+    state.sunlit = pixels->sunlit[pixel];
     state.shape_factor = background.shape_factor;
-    const material_record material = materials[facets[hit.facet].material];
+    const material_record material = surfaces->materials[surfaces->facets[hit.facet].material];
     state.interaction = pixel_interaction(material, background);
     pixel_set_target(&state, frame, hit, material, ray);
     if (background.facet != RECORD_NONE)
-        pixel_set_background(&state, frame, materials[background.material], background, hit, ray,
-                             background_sunlit);
+        pixel_set_background(&state, frame, surfaces->materials[background.material], background,
+                             hit, ray, pixels->background_sunlit[pixel]);
     return state;
 }
 
@@ -283,29 +279,14 @@ static void store_terms(const group_terms *terms, uint term_count, uint first, u
 
 /* Spectra of what reaches the sensor, eq. 2.4-1 and 2.4-2, of groups of neighbouring pixels.
  * Launch: (groups of PIXEL_GROUP pixels), from frame.first_group on.
- * facets: per facet, the ground's behind the real ones; materials: material_record
- * temperature_k, hit, background, sunlit, background_sunlit: per pixel
- * spectra: shape (rows, sample_count), see SPECTRA_...; emissivity: shape (rows, sample_count)
- * incident: shape (pixel_count, 2, knot_count), see incident.cl; NULL in thesis mode, which takes the
- *   mean background instead
- * knot_first, knot_fraction: shape (blocks), (blocks, knot_span, SPECTRUM_WIDTH): the first knot that a
- *   block of samples takes, and what each counts at its samples
- * extinction: rows of CLOUD_... (cloud.h), per m; bodies: see crossing.cl; both NULL in
- *   a scene without transmissive bodies
  * emissivities: shape (pixel_count, 2): of the target and of its background, rows of `emissivity`
  * terms: shape (groups launched, band_plane_terms, sample_count, PIXEL_GROUP), W m-2 sr-1 um-1: what
  *   the radiance is the sum of where that is wanted (emitted by the target, reflected of the sun,
  *   the sky and the background, path) and tau2; then the radiance. Of pixels past the end 0 */
-kernel void
-radiometry(const radiometry_record frame, const air_record air, const camera_record camera,
-           global const facet_record *facets, global const material_record *materials,
-           global const float *temperature_k, global const hit_record *hit,
-           global const background_record *background, global const float *sunlit,
-           global const float *background_sunlit, global const float *spectra,
-           global const float *emissivity, OPTIONAL global const float *incident,
-           OPTIONAL global const uint *knot_first, OPTIONAL global const float *knot_fraction,
-           OPTIONAL global const float *extinction, OPTIONAL global const transmission_path *media,
-           global emissivity_record *emissivities, global float *terms)
+kernel void radiometry(const radiometry_record frame, const air_record air,
+                       const camera_record camera, TABLES(SURFACE_TABLES), TABLES(PIXEL_TABLES),
+                       TABLES(SPECTRA_TABLES), global emissivity_record *emissivities,
+                       global float *terms)
 {
     const uint group = get_global_id(0), first = (frame.first_group + group) * PIXEL_GROUP;
     if (first >= frame.pixel_count) return;
@@ -313,15 +294,15 @@ radiometry(const radiometry_record frame, const air_record air, const camera_rec
     const uint count = min(PIXEL_GROUP, frame.pixel_count - first);
     const uint term_count = band_plane_terms(frame.wants), row = frame.sample_count;
     const uint blocks = row / SPECTRUM_WIDTH;
-    spectra_tables tables = {spectra, emissivity, 0, knot_first, knot_fraction, extinction, media};
+    const surface_tables surfaces = TABLES_GIVEN(SURFACE_TABLES);
+    const pixel_tables pixels = TABLES_GIVEN(PIXEL_TABLES);
+    pixel_spectra tables = {.of = TABLES_GIVEN(SPECTRA_TABLES)};
     pixel_state state[PIXEL_GROUP];
     group_terms own;
 
     for (uint i = 0; i < count; i++) {
         const uint pixel = first + i;
-        state[i] =
-            pixel_look(frame, &air, camera, pixel, hit[pixel], background[pixel], sunlit[pixel],
-                       background_sunlit[pixel], facets, materials, temperature_k[pixel]);
+        state[i] = pixel_look(frame, &air, camera, &surfaces, &pixels, pixel);
         store_emissivities(&state[i], emissivities + 2u * pixel);
     }
     for (uint k = 0; k < SENSOR_TERMS * BLOCKS_TOGETHER; k++)
@@ -332,8 +313,8 @@ radiometry(const radiometry_record frame, const air_record air, const camera_rec
         const uint together = min(BLOCKS_TOGETHER, blocks - block);
         for (uint i = 0; i < count; i++) {
             if (!frame.thesis)
-                tables.incident = incident + (size_t)(first + i) * 2u * frame.knot_count;
-            tables.media = media + first + i;
+                tables.incident = pixels.incident + (size_t)(first + i) * 2u * frame.knot_count;
+            tables.paths = pixels.paths + first + i;
             for (uint b = 0; b < together; b++) {
                 const block_terms seen = look(&state[i], tables, frame, &air, block + b);
                 for (uint k = 0; k + 1u < term_count; k++) own.of[k][b][i] = seen.part[k];

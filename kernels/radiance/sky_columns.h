@@ -148,7 +148,7 @@ static inline lanes sky_ring_bounds(uint ring_count)
 static inline void sky_weigh_points(float *open, const incident_tables *t, uint point, lanes facing,
                                     lanes_bits ring)
 {
-    const uint count = t->from.how.dome_count;
+    const uint count = t->params.dome_count;
     const lanes_bits base = ring * sky_stride(t->frame);
     lanes weight[4];
     lanes_bits place[4];
@@ -171,7 +171,7 @@ static inline void sky_weigh_points(float *open, const incident_tables *t, uint 
 static inline void sky_weigh_dome(float *open, const incident_group *g, uint lane,
                                   const incident_tables *t)
 {
-    const uint count = t->from.how.dome_count, rings = t->cells.ring_count;
+    const uint count = t->params.dome_count, rings = t->cells.ring_count;
     const lanes *normal = g->view.axes.normal, bound = sky_ring_bounds(rings);
     lanes sum = (lanes)0.0f;
 
@@ -301,7 +301,8 @@ INLINE void sky_add_blocks(const sky_column *column, const sky_odd_cells *odd,
                            const uint side, global float *out)
 {
     const uint row = t->frame.sample_count, hidden = lanes_bits_of(sky_is_hidden(g));
-    global const float *sky = t->spectra + (size_t)(SPECTRA_PATHS + 2u * t->frame.path_count) * row;
+    global const float *sky =
+        t->spectra.rows + (size_t)(SPECTRA_PATHS + 2u * t->frame.path_count) * row;
     incident_lobe lobe;
     spectrum open[SIDE], above[SIDE], cell[ROUND][SIDE];
 

@@ -3,16 +3,15 @@
 
 /* Tells what fraction of the sun transmissive bodies let through at the steps that are lit: eq. 2.4-4.
  * Launch: (count, SUN_HISTORY_SHARES day.word_count): four slots a work-item.
- * nodes, blocks, medium: of the bodies; level: see crossing_air_k; sun, hit: see sun_history.cl
+ * sun, hit: see sun_history.cl
  * lit: (count, day.stride): bits are read, shares written */
 kernel void sun_fraction(const uint count, const sun_day day, const world_record world,
-                         const medium_world media, global const bvh_node *nodes,
-                         global const bvh_block *blocks, global const uint *medium,
-                         global const float *level, global const float *sun,
+                         TABLES(MEDIUM_TABLES), global const float *sun,
                          global const hit_record *hit, global uint *lit)
 {
     const uint i = get_global_id(0), word = get_global_id(1);
     if (i >= count) return;
+    const medium_tables medium = TABLES_GIVEN(MEDIUM_TABLES);
     const hit_record at = hit[i];
     global uint *own = lit + (size_t)i * day.stride;
     uint fractions = 0;
@@ -23,8 +22,8 @@ kernel void sun_fraction(const uint count, const sun_day day, const world_record
         if (!sun_history_bit(own, slot)) continue;
         vstore3(vload4(slot, sun).xyz, 0, direction);
         const ray r = ray_leaving(&world, at.point, at.normal, direction);
-        const transmission_path path = crossing_path(&media, nodes, blocks, medium, level, &r);
-        const float fraction = transmission_broad_band(media.broad_band_per_m, &path);
+        const transmission_path path = crossing_path(&medium, &r);
+        const float fraction = transmission_broad_band(medium.media.broad_band_per_m, &path);
         fractions |= (uint)(255.0f * fraction + 0.5f) << 8u * k;
     }
     own[day.word_count + word] = fractions;

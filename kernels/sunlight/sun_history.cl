@@ -3,6 +3,7 @@
 #define LANES_WIDTH RAY_LANES
 #include "kernels/lanes.h"
 #include "kernels/sunlight/sun_history.h"
+#include "kernels/tables.h"
 
 /* Neighbouring points, and their facets as the sun sees them. */
 typedef struct lit_points {
@@ -93,8 +94,7 @@ static ray_beam_box box_of(const lit_points *points, const ray_packet *packet,
 
 /* Casts the rays as a beam: it lists what they may meet, unless that is too much. */
 static void cast(sun_rays *rays, const lit_points *points, const ray_beam_box *outside,
-                 const uint groups, const float sun[3], global const bvh_node *nodes,
-                 global const bvh_block *blocks)
+                 const uint groups, const float sun[3], const tree_tables *tree)
 {
     ray_beam_box box[RAY_GROUPS], all;
     ray_beam_list list;
@@ -108,14 +108,15 @@ static void cast(sun_rays *rays, const lit_points *points, const ray_beam_box *o
     }
     if (some == 0) return;
     const ray_beam beam = ray_beam_of(&all, sun);
-    const uint listed = rays->wait == 0 && ray_beam_collect(&beam, nodes, &list);
+    const uint listed = rays->wait == 0 && ray_beam_collect(&beam, tree->nodes, &list);
     rays->wait = listed ? 0 : rays->wait ? rays->wait - 1 : WAIT;
     if (listed && list.count == 0) return;
     for (uint g = 0; g < groups; g++) {
         if (rays->packet[g].alive == 0) continue;
         const ray_beam own = ray_beam_from(beam, &box[g]);
-        rays->met[g] = listed ? ray_beam_any(&own, &list, nodes, blocks, &rays->packet[g])
-                              : ray_packet_any(nodes, blocks, &rays->packet[g]);
+        rays->met[g] = listed
+                           ? ray_beam_any(&own, &list, tree->nodes, tree->blocks, &rays->packet[g])
+                           : ray_packet_any(tree->nodes, tree->blocks, &rays->packet[g]);
     }
 }
 
@@ -129,8 +130,7 @@ static void cast(sun_rays *rays, const lit_points *points, const ray_beam_box *o
  * facets: per facet, the ground's too; hit: (count); order: (count), which points stand side by side,
  *   NULL: as they are; lit: (count, day.stride), the bits of which are written. The ground plane is
  *   never in shadow. */
-SHARED_BODY kernel void sun_history(const uint count, const sun_day day, const world_record world,
-                                    global const bvh_node *nodes, global const bvh_block *blocks,
+SHARED_BODY kernel void sun_history(const uint count, const sun_day day, TABLES(TREE_TABLES),
                                     global const facet_record *facets, global const float *sun,
                                     global const hit_record *hit, OPTIONAL global const uint *order,
                                     global uint *lit)
@@ -138,13 +138,15 @@ SHARED_BODY kernel void sun_history(const uint count, const sun_day day, const w
     const uint first = get_global_id(0) * RAY_GROUPS * RAY_LANES, word = get_global_id(1);
     if (first >= count) return;
     const uint left = min((uint)(RAY_GROUPS * RAY_LANES), count - first);
+    const tree_tables tree = TABLES_GIVEN(TREE_TABLES);
     uint bits[RAY_GROUPS * RAY_LANES] = {0};
     lit_points points[RAY_GROUPS];
     sun_rays rays = {.wait = 0};
     uint groups = 0;
 
     for (; groups * RAY_LANES < left; groups++)
-        points[groups] = take_points(&world, facets, hit, order, first + groups * RAY_LANES, count);
+        points[groups] =
+            take_points(&tree.world, facets, hit, order, first + groups * RAY_LANES, count);
 #if RAY_LANES == 16
     ray_beam_box outside[RAY_GROUPS];
     for (uint g = 0; g < groups; g++)
@@ -155,13 +157,13 @@ SHARED_BODY kernel void sun_history(const uint count, const sun_day day, const w
         vstore3(vload4(32 * word + slot, sun).xyz, 0, direction);
         if (direction[2] <= 0) continue;
         for (uint g = 0; g < groups; g++) {
-            ray_packet_clear(&rays.packet[g], &world);
+            ray_packet_clear(&rays.packet[g], &tree.world);
             rays.faced[g] = face_sun(&points[g], direction, &rays.packet[g]);
         }
 #if RAY_LANES == 16
-        cast(&rays, points, outside, groups, direction, nodes, blocks);
+        cast(&rays, points, outside, groups, direction, &tree);
 #else
-        rays.met[0] = ray_packet_any(nodes, blocks, &rays.packet[0]);
+        rays.met[0] = ray_packet_any(tree.nodes, tree.blocks, &rays.packet[0]);
 #endif
         for (uint i = 0; i < left; i++) {
             const uint g = i / RAY_LANES, is_lit = rays.faced[g] & ~rays.met[g];

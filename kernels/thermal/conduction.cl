@@ -94,7 +94,7 @@ static uint go(const patch_run *p, uint step, global float *out_w_m2)
     for (uint first = p->first; first < p->end; first += LANES_WIDTH) open_step(p, first, step);
     for (int i = 0; i < count; i++) {
         const bool late = 2 * i >= count;
-        const sub_step s = {layered_air_of(p->world.forcing[late ? step : step - 1]),
+        const sub_step s = {layered_air_of(p->world.loads.forcing[late ? step : step - 1]),
                             (float)(i + 1) / (float)count, span.step_s / (float)count, i, count};
         for (uint first = p->first; first < p->end; first += LANES_WIDTH) go_alone(p, first, &s);
         work += conduction_solve(p->links, p->rows, p->first, p->end);
@@ -165,35 +165,30 @@ static uint go_on(const patch_run *p, conduction_progress *at, global float *out
 /* A patch a work-item, through the weather.
  * Launch: (patch_count). Arrays of facets have span.facet_count of them, patch after patch, each
  * patch filled up to a multiple of 16 with facets without neighbours. patch_first: (patch_count + 1);
- * facets, forcing, sunlit, power, received_w_m2: as in layered.cl; links: neighbours as places in these arrays;
- * groups: (facet_count / LANES_WIDTH), numbers: (9, facet_count), both to work with; progress: (patch_count);
- * launched again until all patches are done;
- * lateral_w_m2: (2 steps, facet_count), see layered_history.h. */
-SHARED_BODY kernel void
-conduction(const thermal_span span, const uint patch_count, global const uint *patch_first,
-           global const layered_record *facets, global const conduction_record *links,
-           global const forcing_record *forcing, OPTIONAL global const uint *sunlit,
-           const uint power_materials, OPTIONAL global const float *power,
-           const uint received_columns, OPTIONAL global const float *received_w_m2,
-           global conduction_group *groups, global float *numbers,
-           global conduction_progress *progress, global float *lateral_w_m2)
+ * facets, loads, exchange: as in layered.cl, but nothing is lateral yet; launched again until all patches
+ * are done; out_w_m2: (2 steps, facet_count), lateral_w_m2 of layered_history.h. */
+SHARED_BODY kernel void conduction(const thermal_span span, const uint patch_count,
+                                   global const layered_record *facets, TABLES(LOAD_TABLES),
+                                   TABLES(EXCHANGE_TABLES), TABLES(PATCH_TABLES),
+                                   global float *out_w_m2)
 {
     const uint patch = get_global_id(0);
     const size_t n = span.facet_count;
     if (patch >= patch_count) return;
 
-    const patch_run p = {.world = {span, forcing, sunlit, 0, power_materials, power, 0,
-                                   received_columns, NULL, received_w_m2},
-                         .first = patch_first[patch],
-                         .end = patch_first[patch + 1],
+    const patch_tables t = TABLES_GIVEN(PATCH_TABLES);
+    global float *row = t.numbers;
+    const patch_run p = {.world = {.span = span,
+                                   .loads = TABLES_GIVEN(LOAD_TABLES),
+                                   .exchange = TABLES_GIVEN(EXCHANGE_TABLES)},
+                         .first = t.patch_first[patch],
+                         .end = t.patch_first[patch + 1],
                          .facets = facets,
-                         .links = links,
-                         .groups = groups,
-                         .rows = {numbers, numbers + n, numbers + 2 * n, numbers + 3 * n,
-                                  numbers + 4 * n, numbers + 5 * n, numbers + 6 * n,
-                                  numbers + 7 * n, numbers + 8 * n}};
-    conduction_progress at = progress[patch];
-    for (uint work = 0; !at.is_done && work < CONDUCTION_WORK;)
-        work += go_on(&p, &at, lateral_w_m2);
-    progress[patch] = at;
+                         .links = t.links,
+                         .groups = t.groups,
+                         .rows = {row, row + n, row + 2 * n, row + 3 * n, row + 4 * n, row + 5 * n,
+                                  row + 6 * n, row + 7 * n, row + 8 * n}};
+    conduction_progress at = t.progress[patch];
+    for (uint work = 0; !at.is_done && work < CONDUCTION_WORK;) work += go_on(&p, &at, out_w_m2);
+    t.progress[patch] = at;
 }

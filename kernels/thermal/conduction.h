@@ -35,7 +35,20 @@ typedef struct conduction_progress {
     uint is_done;
 } conduction_progress;
 
+/* Patches of facets, and what they work with.
+ *   patch_first   shape (patch_count + 1): where the facets of each begin
+ *   links         shape (facets): neighbours as places in these arrays
+ *   groups        shape (facets / LANES_WIDTH); numbers: (9, facets); progress: (patch_count) */
+#define PATCH_TABLES(TABLE, AND)                                                                   \
+    TABLE(global const uint *, patch_first)                                                        \
+    AND TABLE(global const conduction_record *, links)                                             \
+    AND TABLE(global conduction_group *, groups)                                                   \
+    AND TABLE(global float *, numbers)                                                             \
+    AND TABLE(global conduction_progress *, progress)
+
 #ifdef __OPENCL_C_VERSION__
+
+TABLES_STRUCT(patch_tables, PATCH_TABLES);
 
 #define CONDUCTION_TOLERANCE_K                                                                     \
     1e-5f /* rms, of what is left over and over all that a facet conducts */

@@ -5,14 +5,26 @@
 
 #include "kernels/thermal/thermal.h"
 
+/* What acts on facets through the weather.
+ *   forcing   shape (steps), span.step_s apart
+ *   sunlit    shape (span.sunlit_words, span.facet_count): bit `slot % 32` of word `slot / 32` is that of
+ *             the steps slot, slot + period ...; words beyond those bits hold a byte for every slot: its
+ *             share of 255; NULL without words: always lit
+ *   power     shape (steps, power_materials), W m-2; NULL without materials: none */
+#define LOAD_TABLES(TABLE, AND)                                                                    \
+    TABLE(global const forcing_record *, forcing)                                                  \
+    AND TABLE(OPTIONAL global const uint *, sunlit)                                                \
+    AND TABLE(uint, power_materials)                                                               \
+    AND TABLE(OPTIONAL global const float *, power)
+
 #ifdef __OPENCL_C_VERSION__
 
-/* 1 or 0 for facets first .. first + LANES_WIDTH - 1.
- *   sunlit   shape (span.sunlit_words, span.facet_count): bit `slot % 32` of word `slot / 32` is that
- *            of the steps slot, slot + period ...; words beyond those bits hold a byte for every slot:
- *            its fraction of 255; not read without words: always lit */
-static inline lanes sunlit_at(global const uint *sunlit, thermal_span span, uint first, uint step)
+TABLES_STRUCT(load_tables, LOAD_TABLES);
+
+/* 1 or 0, or a fraction, for facets first .. first + LANES_WIDTH - 1. */
+static inline lanes sunlit_at(const load_tables *t, thermal_span span, uint first, uint step)
 {
+    global const uint *sunlit = t->sunlit;
     const uint slot = span.sunlit_period ? step % span.sunlit_period : step;
 
     if (span.sunlit_words == 0) return (lanes)1.0f;
@@ -29,15 +41,13 @@ static inline lanes sunlit_at(global const uint *sunlit, thermal_span span, uint
 }
 
 /* Power by the clock, W m-2.
- *   power      shape (steps, material_count); not read without materials: none
  *   material   of each lane */
-static inline lanes power_at(global const float *power, uint material_count, const uint *material,
-                             uint step)
+static inline lanes power_at(const load_tables *t, const uint *material, uint step)
 {
     lanes out = (lanes)0.0f;
 
-    for (uint i = 0; i < LANES_WIDTH && material_count > 0; i++)
-        ((float *)&out)[i] = power[(size_t)step * material_count + material[i]];
+    for (uint i = 0; i < LANES_WIDTH && t->power_materials > 0; i++)
+        ((float *)&out)[i] = t->power[(size_t)step * t->power_materials + material[i]];
     return out;
 }
 

@@ -1,20 +1,18 @@
 #include "kernels/thermal/layered_history.h"
 
-/* Launch: (facet_count / LANES_WIDTH, rounded up). facets: shape (facet_count); lateral_w_m2,
- * received_w_m2: see layered_history.h; the rest as in thermal.cl. */
-SHARED_BODY kernel void
-layered(const thermal_span span, global const layered_record *facets,
-        global const forcing_record *forcing, OPTIONAL global const uint *sunlit,
-        const uint power_materials, OPTIONAL global const float *power, const uint lateral_columns,
-        OPTIONAL global const float *lateral_w_m2, const uint received_columns,
-        OPTIONAL global const float *received_w_m2, global float *temperature_k)
+/* Launch: (facet_count / LANES_WIDTH, rounded up). facets: shape (facet_count); the rest as in
+ * thermal.cl. */
+SHARED_BODY kernel void layered(const thermal_span span, global const layered_record *facets,
+                                TABLES(LOAD_TABLES), TABLES(EXCHANGE_TABLES),
+                                global float *temperature_k)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= span.facet_count) return;
 
-    const layered_world w = {
-        span,  forcing,         sunlit,           first,        power_materials,
-        power, lateral_columns, received_columns, lateral_w_m2, received_w_m2};
+    const layered_world w = {.span = span,
+                             .first = first,
+                             .loads = TABLES_GIVEN(LOAD_TABLES),
+                             .exchange = TABLES_GIVEN(EXCHANGE_TABLES)};
     const layered_body body = layered_body_of(facets, first, span.facet_count);
     layered_state state = layered_start(w, &body);
     thermal_load before = layered_load_at(w, &body, 0);

@@ -5,20 +5,26 @@
 #include "kernels/thermal/facet_switches.h"
 #include "kernels/thermal/layered.h"
 
+/* Heat that facets exchange, in columns of those that do; without columns NULL: none.
+ *   lateral_w_m2    shape (2 steps, lateral_columns): along them, mean over each half of the way to the
+ *                   next step
+ *   received_w_m2   shape (steps, received_columns): longwave */
+#define EXCHANGE_TABLES(TABLE, AND)                                                                \
+    TABLE(uint, lateral_columns)                                                                   \
+    AND TABLE(OPTIONAL global const float *, lateral_w_m2)                                         \
+    AND TABLE(uint, received_columns)                                                              \
+    AND TABLE(OPTIONAL global const float *, received_w_m2)
+
 #ifdef __OPENCL_C_VERSION__
+
+TABLES_STRUCT(exchange_tables, EXCHANGE_TABLES);
 
 /* What acts on facets `first` to `first + LANES_WIDTH - 1`. */
 typedef struct layered_world {
     thermal_span span;
-    global const forcing_record *forcing;
-    global const uint *sunlit; /* see lit.h */
     uint first;
-    uint power_materials;
-    global const float *power;              /* see lit.h */
-    uint lateral_columns, received_columns; /* 0: none */
-    global const float *lateral_w_m2;  /* shape (2 steps, lateral_columns): mean over each half of
-                                         the way to the next step */
-    global const float *received_w_m2; /* shape (steps, received_columns): longwave */
+    load_tables loads;
+    exchange_tables exchange;
 } layered_world;
 
 static inline layered_body layered_body_of(global const layered_record *facets, uint first,
@@ -46,14 +52,15 @@ static inline lanes layered_column_at(global const float *rows, uint columns, co
 
 static inline thermal_load layered_load_at(layered_world w, const layered_body *body, uint step)
 {
-    thermal_load load =
-        thermal_load_of(&body->face, w.forcing[step], sunlit_at(w.sunlit, w.span, w.first, step));
+    thermal_load load = thermal_load_of(&body->face, w.loads.forcing[step],
+                                        sunlit_at(&w.loads, w.span, w.first, step));
 
-    load.direct_w_m2 += power_at(w.power, w.power_materials, body->material, step);
-    if (w.received_columns > 0) {
-        const lanes usual_w_m2 = thermal_longwave_of(&body->face, w.forcing[step]);
-        const lanes received_w_m2 = layered_column_at(w.received_w_m2, w.received_columns,
-                                                      body->received_column, step, usual_w_m2);
+    load.direct_w_m2 += power_at(&w.loads, body->material, step);
+    if (w.exchange.received_columns > 0) {
+        const lanes usual_w_m2 = thermal_longwave_of(&body->face, w.loads.forcing[step]);
+        const lanes received_w_m2 =
+            layered_column_at(w.exchange.received_w_m2, w.exchange.received_columns,
+                              body->received_column, step, usual_w_m2);
         load.steady_w_m2 += body->face.emissivity * (received_w_m2 - usual_w_m2);
     }
     return load;
@@ -61,8 +68,8 @@ static inline thermal_load layered_load_at(layered_world w, const layered_body *
 
 static inline lanes layered_lateral_at(layered_world w, const layered_body *body, uint row)
 {
-    return layered_column_at(w.lateral_w_m2, w.lateral_columns, body->lateral_column, row,
-                             (lanes)0.0f);
+    return layered_column_at(w.exchange.lateral_w_m2, w.exchange.lateral_columns,
+                             body->lateral_column, row, (lanes)0.0f);
 }
 
 /* Goes through the step that ends at `step`; returns the load after it. */
@@ -73,8 +80,8 @@ static inline thermal_load layered_go(layered_world w, const layered_body *body,
     const lanes lateral_w_m2[2] = {layered_lateral_at(w, body, 2 * step - 2),
                                    layered_lateral_at(w, body, 2 * step - 1)};
 
-    layered_advance(state, body, &before, &after, layered_air_of(w.forcing[step - 1]),
-                    layered_air_of(w.forcing[step]), lateral_w_m2, w.span.step_s);
+    layered_advance(state, body, &before, &after, layered_air_of(w.loads.forcing[step - 1]),
+                    layered_air_of(w.loads.forcing[step]), lateral_w_m2, w.span.step_s);
     return after;
 }
 

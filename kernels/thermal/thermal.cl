@@ -18,30 +18,29 @@ static void set_bodies(thermal_body *body, lanes *stated_k, uint *material, ther
 
 /* Launch: (facet_count / LANES_WIDTH, rounded up).
  * facets: shape (facet_count), thickness above 0 and a material of `materials` unless its
- * temperature is stated; forcing: (first_step + row_count), span.step_s apart; sunlit:
- * see lit.h; power: shape (steps, power_materials), see lit.h; temperature_k: (row_count, facet_count). */
+ * temperature is stated; temperature_k: (row_count, facet_count). */
 SHARED_BODY kernel void thermal(const thermal_span span, global const facet_record *facets,
-                                global const material_record *materials,
-                                global const forcing_record *forcing,
-                                OPTIONAL global const uint *sunlit, const uint power_materials,
-                                OPTIONAL global const float *power, global float *temperature_k)
+                                global const material_record *materials, TABLES(LOAD_TABLES),
+                                global float *temperature_k)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= span.facet_count) return;
 
+    const load_tables loads = TABLES_GIVEN(LOAD_TABLES);
     thermal_body body;
     lanes stated_k;
     uint material[LANES_WIDTH];
     set_bodies(&body, &stated_k, material, span, first, facets, materials);
-    thermal_load before = thermal_load_of(&body, forcing[0], sunlit_at(sunlit, span, first, 0));
-    before.direct_w_m2 += power_at(power, power_materials, material, 0);
+    thermal_load before =
+        thermal_load_of(&body, loads.forcing[0], sunlit_at(&loads, span, first, 0));
+    before.direct_w_m2 += power_at(&loads, material, 0);
     thermal_state state = thermal_start(&body, &before);
     lanes earlier_k = state.front_k;
     for (uint step = 0; step < span.first_step + span.row_count; step++) {
         if (step > 0) {
             thermal_load after =
-                thermal_load_of(&body, forcing[step], sunlit_at(sunlit, span, first, step));
-            after.direct_w_m2 += power_at(power, power_materials, material, step);
+                thermal_load_of(&body, loads.forcing[step], sunlit_at(&loads, span, first, step));
+            after.direct_w_m2 += power_at(&loads, material, step);
             earlier_k = state.front_k;
             thermal_advance(&state, &body, &before, &after, span.step_s);
             before = after;

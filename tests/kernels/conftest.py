@@ -1,10 +1,7 @@
-import collections
-import probe
 import pyopencl as cl
 import pytest
+from opencl import OpenCL
 from ray_world import RayWorld
-
-OpenCL = collections.namedtuple("OpenCL", "context queue build")
 
 
 @pytest.fixture(scope="session")
@@ -22,14 +19,4 @@ def ray_lanes(request, monkeypatch):
 
 @pytest.fixture(scope="session")
 def opencl(context):
-    """context, queue and build(name): the kernel of kernels/.../NAME.cl."""
-    built = {}
-
-    def build(name, options=""):
-        if (name, options) not in built:
-            source = (probe.ROOT / probe.find(f"{name}.cl")).read_text()
-            program = cl.Program(context, source).build(f"-cl-std=CL1.2 -I {probe.ROOT} {options}")
-            built[name, options] = getattr(program, name)
-        return built[name, options]
-
-    return OpenCL(context, cl.CommandQueue(context), build)
+    return OpenCL(context)

@@ -274,6 +274,18 @@ class Case:
         self.weights = np.concatenate([weight, shared]).astype(np.float32)
         self.weight[19:36] += shared
 
+    def tables(self):
+        """The groups of tables that radiometry.cl reads."""
+        return {
+            "surface": {"facets": self.facets, "materials": self.materials,
+                        "facet_temperature_k": self.temperature_k},
+            "pixel": {"hit": self.hit, "background": self.background, "temperature_k": self.pixel_k,
+                      "sunlit": self.sunlit, "background_sunlit": self.background_sunlit,
+                      "paths": self.body_paths, "incident": self.incident},
+            "spectra": {"rows": self.spectra, "emissivity": self.emissivity,
+                        "extinction": self.extinction, "knot_first": self.knot_first,
+                        "knot_fraction": self.knot_fraction}}
+
     def of_band(self, band):
         """Where in the rows a band is, and its weights there."""
         first, own, count = (int(band[k]) for k in ("first_sample", "first_weight", "sample_count"))

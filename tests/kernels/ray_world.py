@@ -1,20 +1,8 @@
 """A mesh on a device, with the ray kernels to run over it."""
 import numpy as np
-import pyopencl as cl
 import tree
-
-NONE = 0xFFFFFFFF
-HIT = np.dtype([("point", "f4", 3), ("range_m", "f4"), ("facet", "u4"), ("normal", "f4", 3)])
-WORLD = np.dtype([("ground_facet", "u4"), ("ground_z_m", "f4"), ("offset_m", "f4"),
-                  ("cull_back", "u4")])
-BACKGROUND = np.dtype([("shape_factor", "f4"), ("mean_temperature_k", "f4"), ("material", "u4"),
-                       ("facet", "u4"), ("point", "f4", 3), ("normal", "f4", 3),
-                       ("met_count", "u4"), ("unused", "u4")])
-CAMERA = np.dtype([(name, "f4", 3) for name in ("position", "corner", "across", "down")]
-                  + [(name, "u4") for name in ("first_column", "first_row", "is_orthographic",
-                                               "samples_per_side", "seed")] + [("unused", "u4", 3)])
-FACET = np.dtype([("normal", "f4", 3), ("material", "u4"), ("rest", "u4", 8)])
-MATERIAL = np.dtype([("before", "f4", 9), ("number", "u4"), ("unused", "u4", 2)])
+from records import (BACKGROUND, BVH_BLOCK, BVH_NODE, CAMERA, FACET, HIT, MATERIAL, NONE,  # noqa: F401
+                     WORLD)
 
 
 class RayWorld:
@@ -24,27 +12,20 @@ class RayWorld:
         self.opencl = opencl
         nodes, blocks, low, high = tree.build(*mesh, two_sided)
         self.facet_count = len(mesh[0])
-        self.nodes, self.blocks = self.copy(nodes), self.copy(blocks)
         self.world = np.zeros(1, WORLD)
         self.world["ground_facet"] = NONE
         self.world["offset_m"] = 2.0**-20 * max(np.abs(low).max(), np.abs(high).max())
+        self.tree = {"world": self.world, "nodes": nodes.view(BVH_NODE), "blocks": blocks.view(BVH_BLOCK)}
 
-    def copy(self, array):
-        flags = cl.mem_flags.READ_ONLY | cl.mem_flags.COPY_HOST_PTR
-        return cl.Buffer(self.opencl.context, flags, hostbuf=np.ascontiguousarray(array))
+    def run(self, name, shape, local=64, options="", **arguments):
+        """Launches over (x, y) work-items, x padded to `local`."""
+        size = (-(-shape[0] // local) * local, shape[1])
+        self.opencl.run(name, size, (local, 1), f"-DRAY_LANES={self.lanes} {options}",
+                        tree=self.tree, **arguments)
 
-    def run(self, name, count, arguments, *outputs, shape=None, local=64, options=""):
-        """Launches over `shape`, or `count` rays, with a size padded to `local`; returns the
-        outputs."""
-        arrays = [np.empty(count, dtype) for dtype in outputs]
-        memory = [cl.Buffer(self.opencl.context, cl.mem_flags.WRITE_ONLY, a.nbytes) for a in arrays]
-        width, height = shape or (-(-count // self.lanes), 1)
-        size = (-(-width // local) * local, height)
-        kernel = self.opencl.build(name, f"-DRAY_LANES={self.lanes} {options}")
-        kernel(self.opencl.queue, size, (local, 1), np.uint32(count), *arguments, *memory)
-        for array, buffer in zip(arrays, memory):
-            cl.enqueue_copy(self.opencl.queue, array, buffer)
-        return arrays
+    def packets(self, count):
+        """The launch of kernels with a packet of rays a work-item."""
+        return (-(-count // self.lanes), 1)
 
     def batches(self, count):
         """The launch of kernels that sort their rays, kernels/rays/ray_order.h."""
@@ -57,58 +38,54 @@ class RayWorld:
     def trace(self, rays, **how):
         """rays: (n, 6). Returns range, facet."""
         rays = np.asarray(rays, np.float32)
-        arguments = (np.uint32(len(rays)), self.world[0], self.nodes, self.blocks,
-                     self.copy(rays.T))
-        shape = self.batches(len(rays))
-        return self.run("trace", len(rays), arguments, np.float32, np.uint32, shape=shape, **how)
+        count, out = len(rays), (np.empty(len(rays), np.float32), np.empty(len(rays), np.uint32))
+        self.run("trace", self.batches(count), count=count, stride=count, rays=rays.T,
+                 out_range=out[0], out_facet=out[1], **how)
+        return out
 
     def occluded(self, rays, **how):
         rays = np.asarray(rays, np.float32)
-        arguments = (np.uint32(len(rays)), self.world[0], self.nodes, self.blocks,
-                     self.copy(rays.T))
-        shape = self.batches(len(rays))
-        return self.run("occluded", len(rays), arguments, np.uint8, shape=shape, **how)[0]
+        count, out = len(rays), np.empty(len(rays), np.uint8)
+        self.run("occluded", self.batches(count), count=count, stride=count, rays=rays.T,
+                 out_met=out, **how)
+        return out
 
     def primary(self, camera, columns, first, count, **how):
-        arguments = (np.uint32(first), np.uint32(columns), camera[0], self.world[0], self.nodes,
-                     self.blocks)
         side = 4 if self.lanes == 16 else 1
         rows = -(-(first + count) // columns) - first // columns
-        shape = (-(-columns // side), -(-rows // side))
-        return self.run("primary", count, arguments, HIT, shape=shape, **how)[0]
+        out = np.empty(count, HIT)
+        self.run("primary", (-(-columns // side), -(-rows // side)), count=count, first_pixel=first,
+                 columns=columns, camera=camera, out_hit=out, **how)
+        return out
 
     def sunlight(self, sun, hits, **how):
-        arguments = (*np.float32(sun), self.world[0], self.nodes, self.blocks, self.copy(hits))
-        return self.run("sunlight", len(hits), arguments, np.float32, **how)[0]
+        out = np.empty(len(hits), np.float32)
+        self.run("sunlight", self.packets(len(hits)), count=len(hits), sun_x=sun[0], sun_y=sun[1],
+                 sun_z=sun[2], hit=hits, out_lit=out, **how)
+        return out
 
     def hemisphere(self, cells, hits, material=None, temperature_k=None, number=None,
                    sun=(0, 0, 0), **how):
         """material, temperature_k: per facet, the ground's last; number: per material."""
-        cell_count, count = len(cells), len(hits)
         facets = np.zeros(self.facet_count + 1, FACET)
         facets["material"] = 0 if material is None else material
         temperature = np.zeros(len(facets), np.float32)
         temperature[:] = 300 if temperature_k is None else temperature_k
         materials = np.zeros(facets["material"].max() + 1, MATERIAL)
         materials["number"] = np.arange(len(materials)) if number is None else number
-        cells, facets, temperature, materials, hits = (
-            self.copy(a) for a in (cells, facets, temperature, materials, hits))
-        met = self.cast(cell_count, cells, count, hits, sun, **how)
-        rays = (np.uint32(cell_count), self.world[0], self.nodes, self.blocks)
-        arguments = (*rays, cells, facets, temperature, materials, hits, self.copy(met), None)
-        shape = (-(-count // self.lanes), 1)
-        return self.run("background", count, arguments, BACKGROUND, shape=shape, **how)[0]
+        met = self.cast(cells, hits, sun, **how)
+        out = np.empty(len(hits), BACKGROUND)
+        self.run("background", self.packets(len(hits)), count=len(hits), cell_count=len(cells),
+                 surface={"facets": facets, "materials": materials, "facet_temperature_k": temperature},
+                 hemisphere={"cell": cells, "hit": hits, "met": met}, out=out, **how)
+        return out
 
-    def cast(self, cell_count, cells, count, hits, sun, local=64, options=""):
+    def cast(self, cells, hits, sun, **how):
         """The words of hemisphere.cl, shape (cell_count, count)."""
-        met = np.empty((cell_count, count), np.uint32)
-        memory = cl.Buffer(self.opencl.context, cl.mem_flags.WRITE_ONLY, met.nbytes)
-        width = -(-count // self.bundle())
-        size = (-(-width // local) * local, -(-cell_count // (72 if self.lanes == 16 else 1)))
-        kernel = self.opencl.build("hemisphere", f"-DRAY_LANES={self.lanes} {options}")
-        kernel(self.opencl.queue, size, (local, 1), np.uint32(count), np.uint32(cell_count),
-               *np.float32(sun), self.world[0], self.nodes, self.blocks, cells, hits, memory)
-        cl.enqueue_copy(self.opencl.queue, met, memory)
+        met = np.empty((len(cells), len(hits)), np.uint32)
+        shape = (-(-len(hits) // self.bundle()), -(-len(cells) // (72 if self.lanes == 16 else 1)))
+        self.run("hemisphere", shape, count=len(hits), cell_count=len(cells), sun_x=sun[0],
+                 sun_y=sun[1], sun_z=sun[2], cell=cells, hit=hits, out_met=met, **how)
         return met
 
 

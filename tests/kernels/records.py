@@ -54,6 +54,14 @@ DETECTOR = record("*seed *frame *band *columns *count *last_count noise shot fix
 BLUR = record("*columns *rows *step *picture_columns *picture_rows *weight_columns *weight_rows"
               " *first_column *first_row *unused[3]")
 SPAN = record("*facet_count *first_step *row_count *sunlit_words weight step_s *sunlit_period *step_count")
+SUN_DAY = record("*slot_count *word_count *nearest since_min step_min *stride *unused[2]")
+MEDIUM_WORLD = record("low[3] high[3] altitude_m *level_count stated_k[4] broad_band_per_m[4] *scatters[4]")
+LAYERED = record("capacity_j_m2_k[8] conductance_w_m2_k[9] normal[3] absorptance emissivity power_w_m2"
+                 " *two_sided *back back_k resistance_day_s_m resistance_night_s_m film_limit_kg_m2"
+                 " stated_temperature_k *material *lateral_column lateral_fraction[8] sky_fraction"
+                 " *received_column *unused[2]")
+CONDUCTION_PROGRESS = record("*days *step *is_settled *is_done")
+CONDUCTION_GROUP = np.dtype("V4096")  # to work with: room enough for what the device makes of it
 
 TWINS = {  # by the name of the record
     "bvh_node": BVH_NODE, "bvh_block": BVH_BLOCK, "hit_record": HIT, "facet_record": FACET,
@@ -61,5 +69,8 @@ TWINS = {  # by the name of the record
     "background_record": BACKGROUND, "camera_record": CAMERA, "radiometry_record": RADIOMETRY,
     "incident_record": INCIDENT, "band_record": BAND, "detector_record": DETECTOR,
     "blur_record": BLUR, "air_record": AIR, "conduction_record": CONDUCTION, "view_record": VIEW,
-    "emissivity_record": EMISSIVITY, "thermal_span": SPAN,
+    "emissivity_record": EMISSIVITY, "thermal_span": SPAN, "sun_day": SUN_DAY,
+    "medium_world": MEDIUM_WORLD, "transmission_path": TRANSMISSION_PATH,
+    "layered_record": LAYERED, "conduction_progress": CONDUCTION_PROGRESS,
+    "conduction_group": CONDUCTION_GROUP,
 }

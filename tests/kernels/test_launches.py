@@ -1,13 +1,13 @@
 """The launches that kernels/launches.py makes from the kernels' signatures: what compiles, and what does not."""
 import pathlib
 import subprocess
-import sys
 
+import numpy as np
 import pytest
+import records
+from opencl import launches
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "kernels"))
-import launches  # noqa: E402
 
 
 @pytest.fixture(scope="module")
@@ -127,3 +127,26 @@ def test_a_group_that_lists_something_else_is_refused(read):
     with pytest.raises(launches.Mistake) as mistake:
         read("kernel void some(TABLES(TREE_TABLES))", tree=TREE.replace(" AND \\", " \\"))
     assert "tree.h:1: found 'TABLE(world_record, world) TABLE(" in str(mistake.value)
+
+
+@pytest.fixture
+def by_name(opencl):
+    """Binds background_hit's arguments, some of them changed."""
+    right = {"count": 1, "background": np.zeros(1, records.BACKGROUND), "hit": np.zeros(1, records.HIT)}
+    return lambda **changed: opencl.bind("background_hit", {**right, **changed})
+
+
+def test_tests_launch_by_the_same_names(by_name):
+    arguments, written = by_name()
+
+    assert len(arguments) == 3 and [array.dtype for array, _ in written] == [records.HIT]
+
+
+@pytest.mark.parametrize("changed, message", [
+    ({"hit": None}, "kernel background_hit: hit is missing"),
+    ({"order": 1}, "kernel background_hit: there is no order"),
+    ({"background": np.zeros(1, records.HIT)}, "kernel background_hit: background is .*, expected background_record"),
+    ({"hit": np.zeros((4, 2), records.HIT)[:, 0]}, "hit is written and not contiguous")])
+def test_tests_are_told_what_does_not_fit_the_signature(by_name, changed, message):
+    with pytest.raises(TypeError, match=message):
+        by_name(**changed)

@@ -1,31 +1,10 @@
 """The equations of kernels/thermal/thermal.h in float64 numpy, all facets at once; slabs by a dense solve."""
 import numpy as np
+import records
 
 SIGMA = 5.670374419e-8
 GROUND_REFLECTANCE = 0.15
 NODES = 8
-
-FACET = np.dtype({
-    "names": ["normal", "material", "slope_rad", "azimuth_rad", "thickness_m", "power_w_m2",
-              "stated_temperature_k", "two_sided"],
-    "formats": [("f4", 3), "u4", "f4", "f4", "f4", "f4", "f4", "u4"],
-    "offsets": [0, 12, 16, 20, 24, 28, 32, 36],
-    "itemsize": 48})
-MATERIAL = np.dtype({
-    "names": ["density_kg_m3", "specific_heat_j_kg_k", "conductivity_w_m_k", "solar_absorptance",
-              "thermal_emissivity", "exposed_area"],
-    "formats": ["f4"] * 6, "offsets": [0, 4, 8, 12, 16, 20], "itemsize": 48})
-FORCING = np.dtype({
-    "names": ["air_temperature_k", "sky_longwave_w_m2", "convection_w_m2_k", "direct_w_m2",
-              "diffuse_w_m2", "sun", "rain_w_m2_k", "rain_temperature_k", "specific_humidity", "pressure_pa",
-              "convection_law", "buoyancy", "roughness"],
-    "formats": ["f4", "f4", "f4", "f4", "f4", ("f4", 3), "f4", "f4", "f4", "f4", "u4", "f4", "f4"],
-    "offsets": [0, 4, 8, 12, 16, 20, 32, 36, 40, 44, 48, 52, 56], "itemsize": 64})
-SPAN = np.dtype({
-    "names": ["facet_count", "first_step", "row_count", "sunlit_words", "weight", "step_s",
-              "sunlit_period", "step_count"],
-    "formats": ["u4", "u4", "u4", "u4", "f4", "f4", "u4", "u4"],
-    "offsets": [0, 4, 8, 12, 16, 20, 24, 28], "itemsize": 32})
 
 
 class Body:
@@ -50,7 +29,7 @@ class Body:
 
 def load_of(body, now, lit):
     """Row by row: direct, steady, back, convection, air, rain, rain temperature."""
-    now = {name: np.float64(now[name]) for name in FORCING.names}
+    now = {name: np.float64(now[name]) for name in records.FORCING.names}
     sky = 0.5 * (1 + body.normal[:, 2])
     cosine = body.normal @ now["sun"]
     facing = np.where(body.two_sided, abs(cosine), np.maximum(0, cosine))

@@ -8,7 +8,7 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCES = ["tree/bvh.c", "tree/bvh_binary.c", "tree/bvh_wide.c", "mesh/corner_tree.c", "mesh/polygon.c",
-           "base/interrupt.c", "base/status.c"]
+           "base/interrupt.c", "base/status.c", "base/terminal_text.c"]
 
 
 class Source(ctypes.Structure):

@@ -1,12 +1,11 @@
 import numpy as np
-import probe
 import records
 
 
 def run(opencl, background):
-    arguments = [np.uint32(len(background)), probe.copy(opencl, background)]
-    return probe.launch(opencl, opencl.build("background_hit"), 64, arguments, len(background),
-                        records.HIT)
+    hit = np.empty(len(background), records.HIT)
+    opencl.run("background_hit", (64,), count=len(background), background=background, hit=hit)
+    return hit
 
 
 def test_the_point_met_becomes_a_hit(opencl):

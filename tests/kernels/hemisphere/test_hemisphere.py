@@ -220,8 +220,7 @@ def test_words_of_packets_and_beams_are_those_of_single_rays(opencl, ways, sprea
     cells = grid(10, 20, READINGS["cosine"])  # 162 cells: three work-items of a packet
     words = []
     for world.lanes, options in ((16, ""), (16, "-DRAY_PORTABLE"), (1, "")):
-        words.append(world.cast(len(cells), world.copy(cells), len(hits), world.copy(hits),
-                                (0.6, 0, 0.8), options=options))
+        words.append(world.cast(cells, hits, (0.6, 0, 0.8), options=options))
 
     lit = ((words[2] != NONE) & (words[2] >> 31 == 1)).mean()
     assert 0.05 < lit < 0.5 if (spread_m, triangles) == (1.0, 300) else lit > 0

@@ -1,7 +1,6 @@
 import pathlib
 
 import numpy as np
-import pyopencl as cl
 import pytest
 import records
 from radiometry_reference import unit
@@ -23,17 +22,14 @@ def reflect(opencl, world, points, normals, *, material=MIRROR, before=None):
     materials["specular_share"] = (1, 0)
     hit = np.zeros(len(points), records.HIT)
     hit["point"], hit["normal"] = points, normals
-    background = np.zeros(len(points), records.BACKGROUND) if before is None else before
+    background = np.zeros(len(points), records.BACKGROUND) if before is None else before.copy()
     camera = np.zeros(1, records.CAMERA)
     camera["position"] = EYE
     temperature = np.float32(280) + np.arange(len(facets), dtype=np.float32)
-    memory = world.copy(background)
-    tables = [world.copy(a) for a in (facets, temperature, materials, hit)]
-    opencl.build("mirror")(opencl.queue, (64,), (64,), np.uint32(len(points)), camera[0],
-                           world.world[0], world.nodes, world.blocks, *tables, memory)
-    out = np.empty_like(background)
-    cl.enqueue_copy(opencl.queue, out, memory)
-    return out
+    opencl.run("mirror", (64,), (64,), count=len(points), camera=camera, tree=world.tree,
+               surface={"facets": facets, "materials": materials, "facet_temperature_k": temperature},
+               hit=hit, background=background)
+    return background
 
 
 def bounce(points, normal):

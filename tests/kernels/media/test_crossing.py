@@ -10,22 +10,19 @@ import tree
 
 import cases
 
-BODIES = records.record("low[3] high[3] altitude_m *level_count stated_k[4] broad_band_per_m[4]"
-                        " *scatters[4]")
 LEVELS = np.float32([[300, 290], [1300, 280], [2300, 285]])
 BODY = """
 #include "kernels/media/crossing.h"
-kernel void probe(const medium_world bodies, global const bvh_node *nodes,
-                  global const bvh_block *blocks, global const uint *medium,
-                  global const float *level, global const float *rays, global transmission_path *out)
+kernel void probe(TABLES(MEDIUM_TABLES), global const float *rays, global transmission_path *out)
 {
     const uint i = get_global_id(0);
+    const medium_tables medium = TABLES_GIVEN(MEDIUM_TABLES);
     ray r = {.limit = rays[7 * i + 6]};
     for (int k = 0; k < 3; k++) r.origin[k] = rays[7 * i + k];
     for (int k = 0; k < 3; k++) r.direction[k] = rays[7 * i + 3 + k];
-    out[i] = crossing_path(&bodies, nodes, blocks, medium, level, &r);
+    out[i] = crossing_path(&medium, &r);
     transmission_path path = out[i];
-    crossing_set_vertical(&bodies, nodes, blocks, medium, &r, &path);
+    crossing_set_vertical(&medium, &r, &path);
     out[i] = path;
 }
 """
@@ -38,7 +35,7 @@ def paths(opencl):
 
     def run(mesh, medium, origin, direction, limit=np.inf, stated_k=(0, 0, 0, 0)):
         nodes, blocks, low, high = tree.build(*mesh)
-        bodies = np.zeros(1, BODIES)
+        bodies = np.zeros(1, records.MEDIUM_WORLD)
         bodies["low"], bodies["high"], bodies["altitude_m"] = low, high, 300
         bodies["level_count"], bodies["stated_k"] = len(LEVELS), stated_k
         bodies["scatters"] = (0, 1, 1, 1)

@@ -30,10 +30,10 @@ def ln_table(wavelength_um, weight):
 def tables_of(opencl, case):
     """What band_planes looks up: mean emissivities, and ln of radiances."""
     own = [ln_table(case.wavelength_um[at], weight)[1] for at, weight in map(case.of_band, case.bands)]
-    shape = (len(case.emissivity), len(case.bands))
-    arguments = [np.uint32(len(case.weight)), np.uint32(len(case.bands)),
-                 *(probe.copy(opencl, a) for a in (case.bands, case.weights, case.emissivity))]
-    emissivity = probe.launch(opencl, opencl.build("band_emissivity"), shape[::-1], arguments, shape)
+    emissivity = np.empty((len(case.emissivity), len(case.bands)), np.float32)
+    opencl.run("band_emissivity", emissivity.shape[::-1], sample_count=len(case.weight),
+               band_count=len(case.bands), bands=case.bands, weights=case.weights,
+               emissivity=case.emissivity, band_emissivity=emissivity)
     return emissivity, np.array(own, np.float32)
 
 
@@ -42,25 +42,19 @@ def run(opencl, case, options="", groups=None):
     pixels, wants = len(case.hit), int(case.frame["wants"][0])
     all_groups = -(-pixels // records.PIXEL_GROUP)
     row = all_groups * records.PIXEL_GROUP
-    arrays = [case.facets, case.materials, case.pixel_k, case.hit, case.background,
-              case.sunlit, case.background_sunlit, case.spectra, case.emissivity, case.incident,
-              case.knot_first, case.knot_fraction, case.extinction, case.body_paths]
-    inputs = [case.air[0], case.camera[0], *(a if a is None else probe.copy(opencl, a) for a in arrays)]
     emissivity, ln_radiance = tables_of(opencl, case)
-    emissivities = probe.room(opencl, 2 * row * records.EMISSIVITY.itemsize)
-    terms = probe.room(opencl, 7 * row * len(case.weight) * 4)
-    rest = [*(probe.copy(opencl, a) for a in (case.bands, case.weights, emissivity, ln_radiance)),
-            emissivities, terms]
-    shape = (len(case.bands), bin(wants).count("1"), row)
-    planes = probe.room(opencl, 4 * np.prod(shape))
-    groups = groups or all_groups
-    frame = case.frame[0].copy()
-    for first in range(0, all_groups, groups):
+    terms = {"emissivities": np.zeros((row, 2), records.EMISSIVITY),
+             "terms": np.zeros((7, row, len(case.weight)), np.float32)}
+    planes = np.zeros((len(case.bands), bin(wants).count("1"), row), np.float32)
+    frame = case.frame.copy()
+    for first in range(0, all_groups, groups or all_groups):
         frame["first_group"] = first
-        size = (min(groups, all_groups - first),)
-        opencl.build("radiometry", options)(opencl.queue, size, None, frame, *inputs, emissivities, terms)
-        opencl.build("band_planes")(opencl.queue, size, None, frame, *rest, planes)
-    return probe.read(opencl, planes, shape)[..., :pixels]
+        size = (min(groups or all_groups, all_groups - first),)
+        opencl.run("radiometry", size, options=options, frame=frame, air=case.air, camera=case.camera,
+                   **case.tables(), **terms)
+        opencl.run("band_planes", size, frame=frame, bands=case.bands, weights=case.weights,
+                   band_emissivity=emissivity, ln_radiance=ln_radiance, planes=planes, **terms)
+    return planes[..., :pixels]
 
 
 @pytest.fixture(scope="module", params=[

@@ -28,11 +28,11 @@ def tables(opencl):
     bands["first_sample"][1:] = np.cumsum(bands["sample_count"])[:-1]
     bands["first_weight"] = bands["first_sample"]
     rows = np.array([weight, FIRST / wavelength**5, SECOND / wavelength], np.float32)
-    arguments = [np.uint32(len(weight)), probe.copy(opencl, rows), probe.copy(opencl, bands),
-                 probe.copy(opencl, np.float32(weight))]
-    size = (records.BAND_TEMPERATURES // 16, len(BANDS))
-    shape = (len(BANDS), records.BAND_TEMPERATURES)
-    return probe.launch(opencl, opencl.build("band_temperature"), size, arguments, shape)
+    out = np.empty((len(BANDS), records.BAND_TEMPERATURES), np.float32)
+    opencl.run("band_temperature", (records.BAND_TEMPERATURES // 16, len(BANDS)),
+               sample_count=len(weight), spectra=rows, bands=bands, weights=np.float32(weight),
+               ln_radiance=out)
+    return out
 
 
 def find(opencl, table, radiance):

@@ -34,8 +34,9 @@ def detect(opencl, radiance, **fields):
     record["columns"], record["count"], record["gain"] = 512, len(radiance), 1
     for name, value in fields.items():
         record[name] = value
-    return probe.launch(opencl, opencl.build("detector"), len(radiance),
-                        [record[0], probe.copy(opencl, radiance)], len(radiance)).astype(float)
+    out = np.empty_like(radiance)
+    opencl.run("detector", (len(radiance),), record=record, radiance=radiance, out=out)
+    return out.astype(float)
 
 
 def test_without_a_part_the_radiance_goes_through_unchanged(opencl):
@@ -113,10 +114,10 @@ def blur(opencl, picture, weight, first_column, first_row, step=1):
     record["weight_rows"], record["weight_columns"] = weight.shape
     record["first_column"] = np.int32(first_column).view(np.uint32)
     record["first_row"] = np.int32(first_row).view(np.uint32)
-    arguments = [record[0], probe.copy(opencl, np.float32(weight)),
-                 probe.copy(opencl, np.float32(picture))]
-    shape = (rows // step, columns // step)
-    return probe.launch(opencl, opencl.build("blur"), shape[::-1], arguments, shape)
+    out = np.empty((rows // step, columns // step), np.float32)
+    opencl.run("blur", out.shape[::-1], record=record, weight=np.float32(weight),
+               picture=np.float32(picture), out=out)
+    return out
 
 
 @pytest.mark.parametrize("shape, first, step", [((5, 7), (-3, -2), 1), ((4, 4), (0, 0), 4),

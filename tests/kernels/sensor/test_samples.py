@@ -1,5 +1,4 @@
 import numpy as np
-import probe
 import pytest
 import records
 
@@ -19,9 +18,10 @@ def planes_of_samples(samples, none=0.2):
 
 def truth_mean(opencl, planes, categorical):
     count, pixels, samples = planes.shape
-    return probe.launch(opencl, opencl.build("truth_mean"), (pixels, count),
-                        [np.uint32(pixels), np.uint32(samples), np.uint32(categorical),
-                         probe.copy(opencl, planes)], (count, pixels))
+    out = np.empty((count, pixels), np.float32)
+    opencl.run("truth_mean", (pixels, count), pixel_count=pixels, sample_count=samples,
+               categorical=categorical, samples=planes, planes=out)
+    return out
 
 
 @pytest.mark.parametrize("samples", [4, 9, 64])
@@ -65,11 +65,11 @@ def band_mean(opencl, samples_of, bands, ln_radiance):
               if k not in (records.BAND_APPARENT, records.BAND_STDERR)]
     own = padded(samples_of[:, planes].reshape(count, len(planes), -1))
     row = -(-pixels // records.PIXEL_GROUP) * records.PIXEL_GROUP
-    return probe.launch(opencl, opencl.build("band_mean"), (pixels, count),
-                        [np.uint32(pixels), np.uint32(samples), np.uint32(wants),
-                         np.uint32(sum(1 << k for k in planes)),
-                         *(probe.copy(opencl, a) for a in (bands, ln_radiance, own))],
-                        (count, records.BAND_PLANES, row))[..., :pixels]
+    out = np.empty((count, records.BAND_PLANES, row), np.float32)
+    opencl.run("band_mean", (pixels, count), pixel_count=pixels, sample_count=samples, wants=wants,
+               has=sum(1 << k for k in planes), bands=bands, ln_radiance=ln_radiance, samples=own,
+               planes=out)
+    return out[..., :pixels]
 
 
 @pytest.mark.parametrize("is_mean", [0, 1])

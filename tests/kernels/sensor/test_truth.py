@@ -1,5 +1,4 @@
 import numpy as np
-import probe
 import pytest
 import records
 from records import DIFFUSE, MISSED, NO_VALUE, NONE, SPECULAR_BACKGROUND, SPECULAR_SKY
@@ -35,11 +34,13 @@ def run(opencl, hit, background, sunlit, background_sunlit, *, columns=8, first=
     frame["first_pixel"], frame["pixel_count"] = first, len(hit)
     facets, ids, materials, facet_k = scene()
     kelvin = np.where(hit["facet"] == NONE, 0, facet_k[hit["facet"] % len(facet_k)])
-    arrays = [facets, ids, materials, kelvin.astype(np.float32), hit, background,
-              np.float32(sunlit), np.float32(background_sunlit)]
-    arguments = [frame[0], camera[0], *(probe.copy(opencl, a) for a in arrays)]
-    planes = probe.launch(opencl, opencl.build("truth"), 64, arguments,
-                          (records.TRUTH_PLANES, len(hit)))
+    planes = np.empty((records.TRUTH_PLANES, len(hit)), np.float32)
+    opencl.run("truth", (64,), frame=frame, camera=camera,
+               surface={"facets": facets, "materials": materials, "facet_temperature_k": facet_k},
+               facet_id=ids,
+               pixel={"hit": hit, "background": background, "temperature_k": np.float32(kelvin),
+                      "sunlit": np.float32(sunlit), "background_sunlit": np.float32(background_sunlit)},
+               planes=planes)
     return dict(zip(NAMES, planes))
 
 

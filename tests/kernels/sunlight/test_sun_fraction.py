@@ -1,14 +1,12 @@
 """Shares of the sun that transmissive bodies let through, against exp(-extinction x length)."""
-import pathlib
 
 import numpy as np
-import probe
 import ray_world
+import records
 import test_sun_history as history
 import tree
 
 import cases
-import test_crossing
 
 UP = (0, 0, 1)
 
@@ -16,23 +14,21 @@ UP = (0, 0, 1)
 def fractions(opencl, mesh, sun, hits, lit):
     """Shape (points, slots): 0 .. 255. lit: (slots), of all points."""
     nodes, blocks, low, high = tree.build(*mesh)
-    bodies = np.zeros(1, test_crossing.BODIES)
+    bodies = np.zeros(1, records.MEDIUM_WORLD)
     bodies["low"], bodies["high"], bodies["stated_k"] = low, high, 280
     bodies["broad_band_per_m"] = (.03, 0, 0, 0)
     day = history.a_day()
     day["stride"] = 9 * history.WORDS
     words = np.zeros((len(hits), 9 * history.WORDS), np.uint32)
     words[:, :history.WORDS] = np.packbits(lit, bitorder="little").view(np.uint32)
-    world = np.zeros(1, ray_world.WORLD)
+    world = np.zeros(1, records.WORLD)
     world["ground_facet"], world["offset_m"] = ray_world.NONE, 1e-4
-    arrays = (nodes, blocks, np.zeros(len(mesh[0]), np.uint32), np.zeros(2, np.float32), sun, hits)
-    kernel = opencl.build("sun_fraction")
-    memory = probe.copy(opencl, words)
-    kernel(opencl.queue, (len(hits), 8 * history.WORDS), None, np.uint32(len(hits)), day[0],
-           world[0], bodies[0], *(probe.copy(opencl, a) for a in arrays), memory)
-    out = np.empty_like(words)
-    probe.cl.enqueue_copy(opencl.queue, out, memory)
-    return np.ascontiguousarray(out[:, history.WORDS:]).view(np.uint8)
+    medium = {"media": bodies, "medium_nodes": nodes.view(records.BVH_NODE),
+              "medium_blocks": blocks.view(records.BVH_BLOCK),
+              "medium_row": np.zeros(len(mesh[0]), np.uint32), "air_level": np.zeros(2, np.float32)}
+    opencl.run("sun_fraction", (len(hits), 8 * history.WORDS), count=len(hits), day=day, world=world,
+               medium=medium, sun=sun, hit=hits, lit=words)
+    return np.ascontiguousarray(words[:, history.WORDS:]).view(np.uint8)
 
 
 def test_every_lit_step_has_the_transmission_of_its_slant_through_a_slab(opencl):

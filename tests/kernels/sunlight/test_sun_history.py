@@ -1,7 +1,6 @@
 import pathlib
 
 import numpy as np
-import probe
 import pytest
 import records
 from ray_world import NONE, RayWorld, points
@@ -9,14 +8,12 @@ from records import NO_VALUE
 
 import cases
 
-DAY = np.dtype([("slot_count", "u4"), ("word_count", "u4"), ("nearest", "u4"),
-                ("since_min", "f4"), ("step_min", "f4"), ("stride", "u4"), ("unused", "u4", 2)])
 SLOTS, WORDS = 96, 3
 UP = (0, 0, 1)
 
 
 def a_day(nearest=0, since_min=0.0):
-    day = np.zeros(1, DAY)
+    day = np.zeros(1, records.SUN_DAY)
     day[0] = (SLOTS, WORDS, nearest, since_min, 15.0, WORDS, (0, 0))
     return day
 
@@ -40,12 +37,10 @@ def trace(opencl, world, sun, hits, normal=UP, two_sided=0, order=None, options=
     """Shape (points, slots); all points are of one facet record, the ground's among them."""
     facets = np.zeros(world.facet_count + 1, records.FACET)
     facets["normal"], facets["two_sided"] = normal, two_sided
-    arguments = [np.uint32(len(hits)), a_day()[0], world.world[0], world.nodes, world.blocks,
-                 *(world.copy(a) for a in (facets, sun, hits)),
-                 None if order is None else world.copy(order)]
-    kernel = opencl.build("sun_history", f"-DRAY_LANES={world.lanes} {options}")
-    words = probe.launch(opencl, kernel, (-(-len(hits) // world.bundle()), WORDS), arguments,
-                         (len(hits), WORDS), np.uint32)
+    words = np.zeros((len(hits), WORDS), np.uint32)
+    opencl.run("sun_history", (-(-len(hits) // world.bundle()), WORDS),
+               options=f"-DRAY_LANES={world.lanes} {options}", count=len(hits), day=a_day(),
+               tree=world.tree, facets=facets, sun=sun, hit=hits, order=order, lit=words)
     return (words[:, :, None] >> np.arange(32) & 1).reshape(len(hits), -1)
 
 
@@ -54,9 +49,10 @@ def times(opencl, lit, nearest, since_min=0.0, met=True):
     words = np.packbits(lit.reshape(WORDS, 32), bitorder="little").view(np.uint32)
     hits = points((0, 0, 0), UP)
     hits["facet"] = 0 if met else NONE
-    arguments = [np.uint32(1), np.uint32(0), a_day(nearest, since_min)[0],
-                 *(probe.copy(opencl, a) for a in (hits, words))]
-    return probe.launch(opencl, opencl.build("sun_times"), 1, arguments, (2,))
+    out = np.empty(2, np.float32)
+    opencl.run("sun_times", (1,), count=1, first_plane=0, day=a_day(nearest, since_min), hit=hits,
+               lit=words, planes=out)
+    return out
 
 
 def test_a_tower_hides_the_sun_while_the_sun_is_behind_it(opencl):

@@ -1,9 +1,8 @@
 """Heat along facets that touch: thin plates, one temperature through and through."""
 import numpy as np
-import pyopencl as cl
 import pytest
 import records
-from test_layered import SPAN, facet, steady
+from test_layered import facet, steady
 
 STEEL = (54.0, 7833.0 * 465.0)
 COUNT, PLACES = 20, 32
@@ -14,25 +13,19 @@ THICK_M, AREA_M2, H = 1e-4, 0.02**2, 10.0
 def conduct(opencl):
     """Heat along facets, W m-2, shape (2 steps, places), of one patch."""
     def run(facets, links, forcing, lit=None, step_s=900.0):
-        kernel = opencl.build("conduction")
-        span = np.zeros(1, SPAN)
+        span = np.zeros(1, records.SPAN)
         words = 0 if lit is None else 3
         span[0] = (PLACES, 0, 0, words, 0, step_s, 0 if lit is None else 96, len(forcing))
-        copy = cl.mem_flags.COPY_HOST_PTR
-        buffer = lambda a: cl.Buffer(opencl.context, copy, hostbuf=a)
-        work = lambda size: cl.Buffer(opencl.context, cl.mem_flags.READ_WRITE, size)
+        patch = {"patch_first": np.array([0, PLACES], np.uint32), "links": links,
+                 "groups": np.zeros(PLACES, records.CONDUCTION_GROUP),
+                 "numbers": np.zeros((9, PLACES), np.float32),
+                 "progress": np.zeros(1, records.CONDUCTION_PROGRESS)}
         out = np.zeros((2 * len(forcing), PLACES), np.float32)
-        target = cl.Buffer(opencl.context, copy, hostbuf=out)
-        at = np.zeros(4, np.uint32)
-        progress = buffer(at)
-        fixed = (span[0], np.uint32(1), buffer(np.array([0, PLACES], np.uint32)), buffer(facets),
-                 buffer(links), buffer(forcing), None if lit is None else buffer(lit),
-                 np.uint32(0), None, np.uint32(0), None, work(PLACES * 4096),
-                 work(9 * 4 * PLACES), progress, target)
-        while not at[3]:
-            kernel(opencl.queue, (1,), None, *fixed)
-            cl.enqueue_copy(opencl.queue, at, progress)
-        cl.enqueue_copy(opencl.queue, out, target)
+        while not patch["progress"]["is_done"][0]:
+            opencl.run("conduction", (1,), span=span, patch_count=1, facets=facets,
+                       load={"forcing": forcing, "sunlit": lit, "power_materials": 0},
+                       exchange={"lateral_columns": 0, "received_columns": 0}, patch=patch,
+                       out_w_m2=out)
         return out.astype(float)
 
     return run

@@ -3,7 +3,7 @@ import numpy as np
 import probe
 import pyopencl as cl
 import pytest
-from thermal_reference import FACET, FORCING, MATERIAL, SPAN
+from records import FACET, FORCING, MATERIAL, SPAN
 
 TARP, SIMILARITY = 1, 2
 AIR_K, STEP_S = 290.0, 900.0
@@ -77,9 +77,10 @@ def run(opencl, forcing, area, **matter):
         materials[name] = value
     span = np.zeros(1, SPAN)
     span[0] = (1, 0, len(forcing), 0, 1.0, STEP_S, 0, len(forcing))
-    buffers = [probe.copy(opencl, a) for a in (facets, materials, forcing)]
-    return probe.launch(opencl, opencl.build("thermal"), 1,
-                        [span[0], *buffers, None, np.uint32(0), None], (len(forcing),))
+    out = np.empty(len(forcing), np.float32)
+    opencl.run("thermal", (1,), span=span, facets=facets, materials=materials,
+               load={"forcing": forcing, "power_materials": 0}, temperature_k=out)
+    return out
 
 
 def sunny(steps, **law):

@@ -4,7 +4,8 @@ import pathlib
 import numpy as np
 import pyopencl as cl
 import pytest
-from thermal_reference import FORCING, SIGMA, SPAN
+from records import FORCING, LAYERED, SPAN
+from thermal_reference import SIGMA
 
 import table_d1
 
@@ -12,13 +13,6 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 NODES, STEP_S = 8, 900.0
 ADIABATIC, AIR, STATED = range(3)
 ASPHALT = (0.689, 2114.0 * 920.0)  # W/m/K, J/m3/K
-LAYERED = np.dtype([
-    ("capacity_j_m2_k", "f4", 8), ("conductance_w_m2_k", "f4", 9), ("normal", "f4", 3),
-    ("absorptance", "f4"), ("emissivity", "f4"), ("power_w_m2", "f4"), ("two_sided", "u4"),
-    ("back", "u4"), ("back_k", "f4"), ("resistance_day_s_m", "f4"), ("resistance_night_s_m", "f4"),
-    ("film_limit_kg_m2", "f4"), ("stated_temperature_k", "f4"),
-    ("material", "u4"), ("lateral_column", "u4"), ("lateral_fraction", "f4", 8),
-    ("sky_fraction", "f4"), ("received_column", "u4"), ("unused", "u4", 2)])
 
 
 def ladder(layers, ratio=1.5):
@@ -59,37 +53,17 @@ def steady(steps, **values):
 def layered(opencl):
     """Temperatures of the front, shape (steps, facets)."""
     def run(facets, forcing, step_s=STEP_S, width=16, power=None):
-        kernel = opencl.build("layered", f"-DLANES_WIDTH={width}")
         span = np.zeros(1, SPAN)
         span[0] = (len(facets), 0, len(forcing), 0, 1.0, step_s, 0, len(forcing))
-        memory = [cl.Buffer(opencl.context, cl.mem_flags.COPY_HOST_PTR, hostbuf=a)
-                  for a in (facets, forcing)]
         out = np.empty((len(forcing), len(facets)), np.float32)
-        target = cl.Buffer(opencl.context, cl.mem_flags.WRITE_ONLY, out.nbytes)
-        kernel(opencl.queue, ((len(facets) + width - 1) // width,), None, span[0], *memory, None,
-               np.uint32(0 if power is None else power.shape[1]),
-               None if power is None else cl.Buffer(
-                   opencl.context, cl.mem_flags.COPY_HOST_PTR, hostbuf=power),
-               np.uint32(0), None, np.uint32(0), None, target)
-        cl.enqueue_copy(opencl.queue, out, target)
+        opencl.run("layered", ((len(facets) + width - 1) // width,), options=f"-DLANES_WIDTH={width}",
+                   span=span, facets=facets,
+                   load={"forcing": forcing, "power": power,
+                         "power_materials": 0 if power is None else power.shape[1]},
+                   exchange={"lateral_columns": 0, "received_columns": 0}, temperature_k=out)
         return out.astype(float)
 
     return run
-
-
-def test_numpy_and_device_agree_on_where_fields_lie(opencl):
-    fields = "".join(f"out[{i}] = (global char *)&r->{field} - (global char *)r;"
-                     for i, field in enumerate(LAYERED.names))
-    source = ('#include "kernels/thermal/layered.h"\n'
-              "kernel void probe(global const layered_record *r, global uint *out)"
-              f"{{ {fields} out[{len(LAYERED.names)}] = sizeof(*r); }}")
-    program = cl.Program(opencl.context, source).build(f"-cl-std=CL1.2 -I {ROOT}")
-    out = np.zeros(len(LAYERED.names) + 1, np.uint32)
-    memory = cl.Buffer(opencl.context, cl.mem_flags.READ_WRITE, 256)
-    program.probe(opencl.queue, (1,), None, memory, memory)
-    cl.enqueue_copy(opencl.queue, out, memory)
-
-    assert list(out) == [LAYERED.fields[n][1] for n in LAYERED.names] + [LAYERED.itemsize]
 
 
 def test_nafems_t2_a_bar_radiates_from_its_end(layered):

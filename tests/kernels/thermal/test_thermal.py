@@ -1,47 +1,40 @@
-import pathlib
 
 import numpy as np
-import pyopencl as cl
 import pytest
 import thermal_reference as reference
-from thermal_reference import FACET, FORCING, MATERIAL, SIGMA, SPAN
+from records import FACET, FORCING, MATERIAL, SPAN
+from thermal_reference import SIGMA
 
 import table_d1
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
 STEP_S = 900.0
 ASPHALT = {"density_kg_m3": 2114.0, "specific_heat_j_kg_k": 920.0, "conductivity_w_m_k": 0.689}
 
 
-def launch(opencl, kernel, width, facets, materials, forcing, *, first=0, rows=None, weight=1.0,
+def launch(opencl, width, facets, materials, forcing, *, first=0, rows=None, weight=1.0,
            step_s=STEP_S, lit=None, fraction=None, period=0, power=None):
     """Temperatures of shape (rows, facets); `width` facets a work-item."""
-    context = opencl.context
     rows = len(forcing) if rows is None else rows
     bit_words = 0 if lit is None else (len(lit) + 31) // 32
     words = bit_words * (1 if fraction is None else 9)
     span = np.zeros(1, SPAN)
     span[0] = (len(facets), first, rows, words, weight, step_s, period, len(forcing))
-    copy = cl.mem_flags.COPY_HOST_PTR
-    memory = [cl.Buffer(context, copy, hostbuf=a) for a in (facets, materials, forcing)]
     mask = None if lit is None else packed(lit, bit_words)
     if fraction is not None:
         mask = np.concatenate([mask, packed_bytes(fraction, words - bit_words)])
-    sunlit = None if lit is None else cl.Buffer(context, copy, hostbuf=mask)
     out = np.empty((rows, len(facets)), np.float32)
-    target = cl.Buffer(context, cl.mem_flags.WRITE_ONLY, out.nbytes)
-    kernel(opencl.queue, ((len(facets) + width - 1) // width,), None, span[0], *memory, sunlit,
-           np.uint32(0 if power is None else power.shape[1]),
-           None if power is None else cl.Buffer(context, copy, hostbuf=power), target)
-    cl.enqueue_copy(opencl.queue, out, target)
+    opencl.run("thermal", ((len(facets) + width - 1) // width,), options=f"-DLANES_WIDTH={width}",
+               span=span, facets=facets, materials=materials,
+               load={"forcing": forcing, "sunlit": mask, "power": power,
+                     "power_materials": 0 if power is None else power.shape[1]},
+               temperature_k=out)
     return out
 
 
 @pytest.fixture(scope="module")
 def thermal(opencl):
     """Runs the kernel: temperatures of shape (rows, facets)."""
-    kernel = opencl.build("thermal")
-    return lambda *what, **how: launch(opencl, kernel, 16, *what, **how)
+    return lambda *what, **how: launch(opencl, 16, *what, **how)
 
 
 def packed(lit, words):
@@ -123,25 +116,6 @@ def two_days():
     return forcing
 
 
-@pytest.mark.parametrize("name, dtype", [
-    ("facet_record", FACET), ("material_record", MATERIAL), ("forcing_record", FORCING),
-    ("thermal_span", SPAN)])
-def test_numpy_and_device_agree_on_where_fields_lie(context, name, dtype):
-    fields = "".join(f"out[{i}] = (global char *)&r->{field} - (global char *)r;"
-                     for i, field in enumerate(dtype.names))
-    source = ('#include "kernels/thermal/thermal.h"\n'
-              f"kernel void probe(global const {name} *r, global uint *out)"
-              f"{{ {fields} out[{len(dtype.names)}] = sizeof(*r); }}")
-    program = cl.Program(context, source).build(f"-cl-std=CL1.2 -I {ROOT}")
-    out = np.zeros(len(dtype.names) + 1, np.uint32)
-    memory = cl.Buffer(context, cl.mem_flags.READ_WRITE, max(out.nbytes, dtype.itemsize))
-    with cl.CommandQueue(context) as queue:
-        program.probe(queue, (1,), None, memory, memory)
-        cl.enqueue_copy(queue, out, memory)
-
-    assert list(out) == [dtype.fields[n][1] for n in dtype.names] + [dtype.itemsize]
-
-
 def test_every_material_of_table_d1_equals_double_precision(thermal, table, two_days):
     single = thermal(*table, two_days)
 
@@ -190,8 +164,8 @@ def test_a_facet_does_not_depend_on_its_neighbours(thermal, table, two_days):
 
 def test_lanes_equal_their_scalar_twin(opencl, table, two_days):
     lit = np.random.default_rng(10).random((193, 22)) < 0.5
-    together = launch(opencl, opencl.build("thermal"), 16, *table, two_days, lit=lit)
-    alone = launch(opencl, opencl.build("thermal", "-DLANES_WIDTH=1"), 1, *table, two_days, lit=lit)
+    together = launch(opencl, 16, *table, two_days, lit=lit)
+    alone = launch(opencl, 1, *table, two_days, lit=lit)
 
     # exp of a vector and of a scalar differ in their last digit; 768 sub-steps add it up
     assert abs(together - alone).max() < 1e-3
