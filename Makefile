@@ -246,7 +246,7 @@ test-sanitizers:
 	@$(MAKE) test SAN=$(SANITIZERS) TESTS="$(SANITIZED_TESTS)"
 
 # What runs in several threads.
-THREAD_TESTS := bvh bvh_binary bvh_cache bvh_wide errand image output_folder quick_look render tile_queue
+THREAD_TESTS := bvh bvh_binary bvh_cache bvh_wide parallel_job image output_folder quick_look render tile_queue
 
 ## test-threads: what runs in several threads, with ThreadSanitizer
 test-threads:

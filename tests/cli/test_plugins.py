@@ -4,7 +4,7 @@ import shutil
 import subprocess
 
 import pytest
-from conftest import RADSIG, write_scene
+from built_program import RADSIG, write_scene
 
 IMAGE = RADSIG.parent / "plugins" / "image.so"
 

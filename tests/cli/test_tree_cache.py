@@ -3,7 +3,7 @@ import hashlib
 import os
 import struct
 
-from conftest import ROOT
+from built_program import ROOT
 
 SIDE = 225  # 50,625 facets; from 50,000 on trees are kept
 
