@@ -28,10 +28,10 @@ enum {
 #define PATH_KM .02
 #define PER_KM 1e-3 /* per metre */
 #define FIRST_BROAD_CM1 4000.0
-#define LAST_BROAD_CM1 25000.0 /* 2.5 to .4 um */
+#define LAST_BROAD_CM1 25000.0 /* 2.5 to 0.4 um */
 
 /* LOWTRAN's tables over wavelength; for each cloud extinction and absorption, relative to the
- * extinction at .55 um, and asymmetry. */
+ * extinction at 0.55 um, and asymmetry. */
 extern struct {
     float wavelength_um[TABLE], others[BEFORE_CLOUDS][TABLE], cloud[CLOUD_COUNT][3][TABLE];
 } extd_;

@@ -7,7 +7,7 @@
 
 /* Weights of the zenith angles 0 .. 90, for the mean over the azimuths.
  *   count    zenith angles, ends included
- *   thesis   rectangles of cos sin, which sum to .977 for 15 degrees; else exact for radiance that
+ *   thesis   rectangles of cos sin, which sum to 0.977 for 15 degrees; else exact for radiance that
  *            is linear in the zenith angle between neighbours, sum 1
  *   out      shape (count) */
 void sky_weight(int count, bool thesis, double *out);

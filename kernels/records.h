@@ -89,13 +89,13 @@ typedef struct material_record {
     float conductivity_w_m_k;
     float solar_absorptance;
     float thermal_emissivity;
-    float exposed_area;     /* |A|: exposed share of both sides; negative: conductive slab */
+    float exposed_area;     /* |A|: exposed fraction of both sides; negative: conductive slab */
     float specular_share;   /* 0 diffuse .. 1 specular */
     uint emissivity_first;  /* first row of the material in the emissivity table */
     uint emissivity_angles; /* rows: 91 (0..90 degrees) or 1 (the same at all angles) */
     uint number;            /* material code as written in planes */
     uint lobe_first; /* first row of its diffuse lobe in that table, RECORD_NONE: Lambertian */
-    float roughness; /* of the specular share: 0 a mirror .. 1 */
+    float roughness; /* of the specular fraction: 0 a mirror .. 1 */
 } material_record;
 RECORD_SIZE(material_record, 48);
 
@@ -154,8 +154,8 @@ typedef struct background_record {
 RECORD_SIZE(background_record, 48);
 
 /* Pinhole camera: ray of pixel (column, row) from its centre, row 0 on top:
- *   direction = corner + (column + .5) across + (row + .5) down, then normalised.
- * Orthographic: all directions are `corner`, and position + (column + .5) across + (row + .5) down is
+ *   direction = corner + (column + 0.5) across + (row + 0.5) down, then normalised.
+ * Orthographic: all directions are `corner`, and position + (column + 0.5) across + (row + 0.5) down is
  * the ray's origin. The picture may be a part of the frame: its pixel (0, 0) is the frame's
  * (first_column, first_row). With several samples_per_side a pixel is that many samples across and down, and
  * what is said of pixels holds for samples: those of a pixel stand together. */

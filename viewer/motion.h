@@ -19,10 +19,10 @@ void motion_fly(view *v, double forward, double right, double up);
 /* Brings the camera nearer to its target, above 1, or away from it. */
 void motion_approach(view *v, double factor);
 
-/* Makes the lens longer, above 1, or shorter; it stays between .1 and 1e6 mm. */
+/* Makes the lens longer, above 1, or shorter; it stays between 0.1 and 1e6 mm. */
 void motion_lens(view *v, double factor);
 
-/* The unit direction of a pixel's ray. column, row   from the top left corner, centres at .5 */
+/* The unit direction of a pixel's ray. column, row   from the top left corner, centres at 0.5 */
 void motion_ray(const view *v, double column, double row, double out_enu[3]);
 
 /* Looks at the point that a pixel shows at a range: it becomes the target. */

@@ -14,7 +14,7 @@
 /* Facets of a large mesh, and rays into it. */
 enum { LARGE = 80000, RAYS_INTO_LARGE = 1000 };
 
-/* Ranges within this share of the distance are a tie, and so is passing an edge this near. */
+/* Ranges within this fraction of the distance are a tie, and so is passing an edge this near. */
 static const double tie = 1e-6, range_tolerance = 2e-5;
 
 typedef struct answers {

@@ -10,7 +10,7 @@
 
 enum { MODES = OPENCL_MODES + 2 * EMBREE_MODES, ROUNDS_LIMIT = 31 };
 
-/* Below this share of its cores a run was kept waiting by other processes. */
+/* Below this fraction of its cores a run was kept waiting by other processes. */
 static const double busy = .9;
 
 /* One way to trace: modes of radsig, of Embree's robust scene, of its plain scene. */

@@ -10,7 +10,7 @@ void colour_map_grey(double fraction, uint8_t out_rgb[3]);
 /* The colours of matplotlib's `inferno` (S. van der Walt and N. Smith, CC0), within 2 of 255. */
 void colour_map_heat(double fraction, uint8_t out_rgb[3]);
 
-/* Blue, white at .5, red: the ends and the middle of ColorBrewer's RdBu (C. Brewer), straight lines
+/* Blue, white at 0.5, red: the ends and the middle of ColorBrewer's RdBu (C. Brewer), straight lines
  * between them. */
 void colour_map_diverging(double fraction, uint8_t out_rgb[3]);
 

@@ -243,7 +243,7 @@ out:
     return rc;
 }
 
-/* Two channels of one name cannot be: .0001 nm are the least between them. */
+/* Two channels of one name cannot be: 0.0001 nm are the least between them. */
 static bool is_spectral(const image *img)
 {
     if (img->plane_count <= IMAGE_SPECTRAL || img->plane[0].wavelength_um <= 0.0) return false;

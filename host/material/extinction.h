@@ -13,7 +13,7 @@ enum {
 
 /* Transmission over z metres: exp(-value z). */
 typedef struct extinction {
-    double broad_band_per_m; /* .4 to 2.5 um, for insolation */
+    double broad_band_per_m; /* 0.4 to 2.5 um, for insolation */
     double per_m[EXTINCTION_WAVENUMBERS];
 } extinction;
 

@@ -20,7 +20,7 @@ typedef struct layered_layer {
 } layered_layer;
 
 typedef enum layered_back {
-    LAYERED_BACK_BY_AREA, /* air where both sides are exposed (|exposed area| above .75), else no
+    LAYERED_BACK_BY_AREA, /* air where both sides are exposed (|exposed area| above 0.75), else no
                              heat passes (assumed) */
     LAYERED_BACK_ADIABATIC,
     LAYERED_BACK_AIR,

@@ -16,7 +16,7 @@ typedef struct material {
     double specular_share;     /* 0 diffuse .. 1 specular */
     double solar_absorptance;  /* the file's visible emissivity */
     double thermal_emissivity; /* broad band */
-    double exposed_area; /* -1..1; |A|: exposed share of both sides; negative: conductive slab */
+    double exposed_area; /* -1..1; |A|: exposed fraction of both sides; negative: conductive slab */
     char emissivity_file[MATERIAL_FILE_SIZE]; /* .ems, as the file names it */
     char extinction_file[MATERIAL_FILE_SIZE]; /* .ext */
 } material;

@@ -6,7 +6,7 @@
 #include "files/record_file.h"
 
 enum {
-    WAVENUMBER_ROWS = 396, /* 39850, 39750, .. 350 cm-1: .25 to 29 um, ascending wavelength */
+    WAVENUMBER_ROWS = 396, /* 39850, 39750, .. 350 cm-1: 0.25 to 29 um, ascending wavelength */
     WAVENUMBER_ROWS_FIRST_CM1 = 39850,
     WAVENUMBER_ROWS_STEP_CM1 = 100
 };

@@ -34,7 +34,7 @@ typedef struct geometry_facet {
     double normal[3];   /* as printed, ENU, outward; its length is the area in m2 */
     double slope_deg;   /* as printed: 0 level and facing up, 180 facing down */
     double azimuth_deg; /* as printed: clockwise from north */
-    double last_number; /* as printed: 0 facing down and .25 on a wall in the sample; not used */
+    double last_number; /* as printed: 0 facing down and 0.25 on a wall in the sample; not used */
 } geometry_facet;
 
 /* Facets stand in the order of their parts, parts in the order of their objects. */

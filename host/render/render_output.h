@@ -24,7 +24,7 @@ typedef struct render_output_options {
 /* Renders on the devices and writes NAME.img, NAME_truth.img, their headers, NAME.exr,
  * NAME_<plane>.png and NAME.json; all of them appear together at the end, or nothing does. Of a
  * scene with several times each goes into a folder of its own, named by its local time as
- * 19870624T100000-0500, with the bytes that it would have alone; they appear one after the other. */
+ * 19870624T100000-0500, identical to a render of that time alone; written in order. */
 status render_output(const scene *s, device *const *dev, size_t dev_count,
                      const render_output_options *options);
 

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* One who computes tiles, in a thread of its own where there are several. */
+/* A worker: computes tiles, in a thread of its own if there are several. */
 typedef struct tile_worker {
     void *self;
     const char *name; /* for warnings */

@@ -370,7 +370,7 @@ const char *scene_facet_text(const scene *s, uint32_t facet, char *out, size_t s
     return out;
 }
 
-/* A body's facets are met by no ray: any temperature does. */
+/* No ray meets a body's facets, so any temperature will do. */
 static double stated_temperature_k(const scene *s, const scene_material *m, double of_facet_k)
 {
     if (m->medium != RECORD_NONE) return (double)ZERO_CELSIUS_K;

@@ -114,7 +114,7 @@ band_quadrature scene_quadrature(const scene *s);
  * rows of diffuse lobes (lobe.h). */
 uint32_t scene_emissivity_rows(const scene *s);
 
-/* Whether a material has a specular share that is rough. */
+/* Whether a material has a specular fraction that is rough. */
 bool scene_is_rough(const scene *s);
 
 /* Rows of a material's diffuse lobe: 0 in thesis mode and where the emissivity has no angles. */

@@ -31,7 +31,7 @@ typedef struct view {
 bool view_fits(int columns, int rows);
 
 /* Reads an .adv file and turns it from the axes of 1994 (+x north, +y west) to ENU. Its elevation
- * and azimuth repeat what target and position say: more than .1 degree apart is a warning. */
+ * and azimuth repeat what target and position say: more than 0.1 degree apart is a warning. */
 status view_read(view *out, const char *path);
 
 /* Writes an .adv file that view_read reads back, to the axes' exchange of sign. Fails with STATUS_ARGUMENT

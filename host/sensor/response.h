@@ -13,7 +13,7 @@ typedef struct response {
 
 /* Reads a CSV table. Its first line names both columns, and so the unit: wavelength_um,
  * wavelength_nm or wavenumber_cm1, then response; lines before it that begin with # are passed
- * over. Fails with `path:line` unless wavelengths of .2 to 50 um rise or fall from line to line and
+ * over. Fails with `path:line` unless wavelengths of 0.2 to 50 um rise or fall from line to line and
  * responses are 0 or more, one of them above. */
 status response_read(response **out, const char *path);
 

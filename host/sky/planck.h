@@ -15,7 +15,7 @@ planck_terms planck_at(double wavelength_um, bool thesis);
 double planck_spectral(planck_terms terms, double temperature_k);
 
 /* The longest step between samples: 2 cm-1 at 3 um and beyond, growing as the square of the
- * wavenumber below (18 at 1 um, 72 at .5 um). Planck's law between samples then errs by less than
+ * wavenumber below (18 at 1 um, 72 at 0.5 um). Planck's law between samples then errs by less than
  * 2e-4 for every body that shines at that wavelength: 36 K per cm-1 of the step. */
 double planck_step_cm1(double wavenumber_cm1);
 

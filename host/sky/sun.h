@@ -1,4 +1,4 @@
-/* Sun: where it stands. PSA algorithm: Blanco-Muriel et al., Solar Energy 70 (2001) 431, within .01
+/* Sun: where it stands. PSA algorithm: Blanco-Muriel et al., Solar Energy 70 (2001) 431, within 0.01
  * degrees from 1992 to 2045. */
 #ifndef SUN_H
 #define SUN_H

@@ -7,8 +7,8 @@
 #include "mesh/geometry.h"
 
 /* Patches of facets that touch. A facet is coupled to a neighbour of the same material where
- * G = k d w / distance, in series over both, is at least .02 W m-2 K-1 of the smaller one's area;
- * with .02 K more than ten kelvin between them change less than .03 K (departs). */
+ * G = k d w / distance, in series over both, is at least 0.02 W m-2 K-1 of the smaller one's area;
+ * with 0.02 K more than ten kelvin between them change less than 0.03 K (departs). */
 typedef struct conduction_map {
     size_t count; /* places: patch after patch, each filled up to a multiple of 16 */
     uint32_t patch_count;

@@ -30,7 +30,7 @@ enum {
     AZIMUTH
 };
 
-/* Tables 3.1.1-1 and 3.1.2-1; the humidity's .2 is of a per cent. */
+/* Tables 3.1.1-1 and 3.1.2-1; the humidity's 0.2 is of a per cent. */
 static const struct {
     const char *name, *unit;
     double error, thesis_c;

@@ -227,7 +227,7 @@ out:
     return rc;
 }
 
-/* Normals are told apart in steps of 2^-13, and computed at these: a step is worth .1 W/m2 of the
+/* Normals are told apart in steps of 2^-13, and computed at these: a step is worth 0.1 W/m2 of the
  * sun, and meshes hold the same normal with different roundings. Slope and azimuth follow from it. */
 static facet_record key_of(const facet_record *facet)
 {

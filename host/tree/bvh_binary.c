@@ -191,7 +191,7 @@ static void *build_beside(void *argument)
     return NULL;
 }
 
-/* Builds both sides, together where that pays. What they hold does not hang on it: a subtree of n
+/* Builds both sides, together where that pays. What they hold does not depend on it: a subtree of n
  * items keeps to 2 n - 1 places. */
 static void build_sides(subtree *left, subtree *right)
 {

@@ -26,7 +26,7 @@ typedef struct bvh_fork {
 } bvh_fork;
 
 /* Builds the tree over `count` >= 1 items, which are reordered so that every node's are adjacent. All
- * processors work on it; the tree does not hang on their number.
+ * processors work on it; the tree does not depend on their number.
  *   even       halves the items at every node instead of asking the heuristic: no path is then
  *              longer than 28 nodes
  *   out_fork   node 0 the root; out_count nodes, (out_count + 1) / 2 of them leaves, with unused

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* What Bird's model takes for granted: ozone 0.3 cm, asymmetry .85, ground albedo .2 (the report's
+/* What Bird's model takes for granted: ozone 0.3 cm, asymmetry 0.85, ground albedo 0.2 (the report's
  * clear mid-latitude case). */
 #define OZONE_CM 0.3
 #define ASYMMETRY 0.85

@@ -6,7 +6,7 @@
 #ifndef CLOUD_SKY_H
 #define CLOUD_SKY_H
 
-/* Sets the shares of the clear sky's irradiance that are left, above a ground of albedo .2.
+/* Sets the shares of the clear sky's irradiance that are left, above a ground of albedo 0.2.
  *   cloud_type   as weather_record has it, above 0. High clouds: cirrus thin, cirrostratus thick;
  *                nimbostratus in two layers, as altostratus above stratus; fog thickens the lowest
  *                layer (assumed)

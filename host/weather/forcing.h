@@ -8,8 +8,8 @@
 #include "weather/weather.h"
 
 /* Emissivity of the clear sky, from vapour pressure e in mbar, dew point td in C, air Ta in K:
- *   Brunt            .605 + .048 sqrt(e)
- *   Berdahl, Martin  .711 + .56 td/100 + .73 (td/100)^2 + .013 cos(2 pi t/24 h) + .00012 (p/mbar -
+ *   Brunt            0.605 + 0.048 sqrt(e)
+ *   Berdahl, Martin  0.711 + 0.56 td/100 + 0.73 (td/100)^2 + 0.013 cos(2 pi t/24 h) + 0.00012 (p/mbar -
  *                    1000): Solar Energy 32 (1984) 663
  *   Brutsaert        1.24 (e/Ta)^(1/7): Water Resources Research 11 (1975) 742 */
 typedef enum forcing_sky { FORCING_BRUNT, FORCING_BERDAHL_MARTIN, FORCING_BRUTSAERT } forcing_sky;
@@ -21,18 +21,18 @@ typedef enum forcing_convection {
     FORCING_MCADAMS,   /* 5.7 + 3.8 V: McAdams 1954 */
     FORCING_TARP,      /* 3.86 sqrt(V), as of a medium rough plate of 4 m x 4 m (assumed), and what
                          rises by itself: kernels/thermal/convection.h */
-    FORCING_SIMILARITY /* over a roughness length; V at least .1 m/s: kernels/thermal/convection.h */
+    FORCING_SIMILARITY /* over a roughness length; V at least 0.1 m/s: kernels/thermal/convection.h */
 } forcing_convection;
 
 /* Where the sky's diffuse light comes from. Hay and Davies, 1980: what the beam is of that outside
- * the air, this share of the diffuse light comes from the sun's direction. */
+ * the air, this fraction of the diffuse light comes from the sun's direction. */
 typedef enum forcing_diffuse { FORCING_ISOTROPIC, FORCING_HAY_DAVIES } forcing_diffuse;
 
 typedef struct forcing_laws {
     forcing_sky sky;
     forcing_convection convection;
     forcing_diffuse diffuse;
-    double roughness_length_m, wind_height_m; /* of similarity; 0: .001 and 10 */
+    double roughness_length_m, wind_height_m; /* of similarity; 0: 0.001 and 10 */
 } forcing_laws;
 
 enum { FORCING_SKIES = 3, FORCING_CONVECTIONS = 5, FORCING_DIFFUSES = 2 };

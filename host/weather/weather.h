@@ -63,7 +63,7 @@ double weather_saturation_pa(double temperature_k);
 /* Kilograms of water vapour in a kilogram of air. */
 double weather_specific_humidity(const weather_record *r);
 
-/* Dew point from relative humidity (at least .0001), the inverse of the same. */
+/* Dew point from relative humidity (at least 0.0001), the inverse of the same. */
 double weather_dew_point_k(double air_temperature_k, double relative_humidity);
 
 #endif

@@ -4,7 +4,7 @@
 
 /* Replaces the background of targets with a specular share by what the mirrored ray meets (thesis 2.5.6): a facet
  * (shape factor 0) or the sky (1).
- * Launch: (count). hit: per pixel; background: per pixel, changed where the target has a specular share */
+ * Launch: (count). hit: per pixel; background: per pixel, changed where the target has a specular fraction */
 SHARED_BODY kernel void mirror(const uint count, const camera_record camera, TABLES(TREE_TABLES),
                                TABLES(SURFACE_TABLES), global const hit_record *hit,
                                global background_record *background)

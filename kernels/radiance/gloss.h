@@ -1,4 +1,4 @@
-/* Gloss: the rays of a pixel's specular share: one for a mirror, LOBE_RAYS for a rough surface. Device
+/* Gloss: the rays of a pixel's specular fraction: one for a mirror, LOBE_RAYS for a rough surface. Device
  * only. */
 #ifndef GLOSS_H
 #define GLOSS_H

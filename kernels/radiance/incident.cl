@@ -89,7 +89,7 @@ static void add_gloss(const incident_tables *t, const hemisphere_tables *rays, c
 
 /* Radiance that reaches every pixel's surface, weighted for its reflection: each ray of the
  * hemisphere brings the facet that it met (its own temperature, emissivity at the ray's angle, sun
- * and what it sees itself) or the sky of its direction, and so does each ray of a specular share. Exact
+ * and what it sees itself) or the sky of its direction, and so does each ray of a specular fraction. Exact
  * counterpart of the background in eq. 2.4-1 and 2.4-2.
  * Launch: (frame.pixel_count / RAY_BUNDLE where RAY_LANES is 16, rounded up, else frame.pixel_count).
  * dome: (DOME_ROWS, params.dome_count)

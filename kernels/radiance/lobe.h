@@ -21,7 +21,7 @@
 #define LOBE_RAYS 32u
 
 /* The diffuse lobe without its 1/pi and (1 - e) at the sensor's angle: (1 - e_i) / (1 - e_hemi). The
- * whole, (1 - e_i) (1 - e_o) / (pi (1 - e_hemi)), is the same both ways and loses nothing.
+ * whole, (1 - e_i) (1 - e_o) / (pi (1 - e_hemi)), is reciprocal and conserves energy.
  *   arriving          emissivity at the angle that light comes from
  *   over_reflectance  1 / (1 - e_hemi); 0 for a black surface */
 static inline spectrum lobe_diffuse(spectrum arriving, spectrum over_reflectance)

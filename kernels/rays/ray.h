@@ -268,7 +268,7 @@ static inline uint ray_any_below(const ray_frame *f, global const bvh_node *node
     return 0;
 }
 
-/* Tells whether the ray meets anything: a bit, because which triangle it would meet first hangs on
+/* Tells whether the ray meets anything: a bit, because which triangle it would meet first depends on
  * the order of the tree. */
 static inline uint ray_any(global const bvh_node *nodes, global const bvh_block *blocks,
                            const ray *r)

@@ -31,7 +31,7 @@ static inline lanes_bits band_temperature_row(global const float *ln_radiance, l
 }
 
 /* Returns K, or -1 where the radiance is not between those of the table's ends. Linear in 1/T
- * between rows, where ln L nearly is: within .001 K for bands up to 8 to 14 um at 300 K.
+ * between rows, where ln L nearly is: within 0.001 K for bands up to 8 to 14 um at 300 K.
  *   ln_radiance   shape (BAND_TEMPERATURES) */
 static inline lanes band_temperature_find(global const float *ln_radiance, lanes radiance)
 {

@@ -6,7 +6,7 @@
  *   film                      rain that stays, up to a limit, evaporates without rs
  *   along the facet           heat from its neighbours is spread over the nodes of its own material by
  *                             their thickness
- *   start                     the first day over and over until no node moves by .01 K */
+ *   start                     the first day over and over until no node moves by 0.01 K */
 #ifndef LAYERED_KERNEL_H
 #define LAYERED_KERNEL_H
 

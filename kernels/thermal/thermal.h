@@ -3,7 +3,7 @@
  *   exposed area A   e = min(1, 2 |A|) scales all that the front exchanges, the sun included;
  *                    max(0, 2 |A| - 1) is the back's fraction, which sees black surroundings and air
  *                    at air temperature; A >= 0 one node, A < 0 a slab of 8
- *   surroundings     below the horizon: air temperature, reflectance .15; the sky's fraction of the
+ *   surroundings     below the horizon: air temperature, reflectance 0.15; the sky's fraction of the
  *                    view is (1 + cos slope) / 2
  *   start            steady balance with the first record
  * assumed: all of these; see docs/departures.md.

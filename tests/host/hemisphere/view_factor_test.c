@@ -74,7 +74,7 @@ static double mean_factor(const view_factors *f, uint32_t from)
     return sum;
 }
 
-/* .199825 and .200044, closed forms; 2 % is what 5400 rays are trusted for. */
+/* 0.199825 and 0.200044, closed forms; 2 % is what 5400 rays are trusted for. */
 static void unit_squares_a_unit_apart_see_a_fifth_of_each_other(void **state)
 {
     static const double corner[3] = {0, 0, 1}, along[3] = {0, 1, 0}, across[3] = {1, 0, 0};

@@ -7,7 +7,7 @@ enum { ROW_SIZE = 20, LINES_PER_ANGLE = 1 + EMISSIVITY_WAVENUMBERS };
 static char *table;
 
 /* Thesis Appendix A item 7 (new asphalt) prints parts of the angles 0, 1 and 90. The rows and angles
- * that it leaves out are filled in: at 0 to 89 degrees 1 outside and .961 inside 1250..750 cm-1, at
+ * that it leaves out are filled in: at 0 to 89 degrees 1 outside and 0.961 inside 1250..750 cm-1, at
  * 90 degrees 1 and 0. */
 static int fill_table(void **state)
 {

@@ -28,8 +28,8 @@ static void the_printed_steel_has_the_properties_of_steel(void **state)
     const material *steel = material_by_code(library, 1);
 
     assert_string_equal(steel->name, "painted_steel_roof");
-    assert_near(steel->specific_heat_j_kg_k, 464.84, 0.01); /* .1111 x 4184 J/kg/K */
-    assert_near(steel->conductivity_w_m_k, 53.97, 0.01);    /* 464.4 x .11622 W/m/K */
+    assert_near(steel->specific_heat_j_kg_k, 464.84, 0.01); /* 0.1111 x 4184 J/kg/K */
+    assert_near(steel->conductivity_w_m_k, 53.97, 0.01);    /* 464.4 x 0.11622 W/m/K */
     assert_near(steel->density_kg_m3, 7833.0, 1e-9);        /* double */
     assert_near(steel->specular_share, 1.0, 0.0);
     assert_near(steel->solar_absorptance, 0.6, 0.0);

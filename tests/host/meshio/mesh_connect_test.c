@@ -174,7 +174,7 @@ static void a_collinear_face_far_from_the_origin_is_degenerate(void **state)
 {
     const double position[3][3] = {{7162.4, -6951.7, 10.1},
                                    {7162.7, -6951.1, 10.4},
-                                   {7163.0, -6950.5, 10.7}}; /* steps of (.3, .6, .3) */
+                                   {7163.0, -6950.5, 10.7}}; /* steps of (0.3, 0.6, 0.3) */
     const uint32_t corner[] = {0, 1, 2};
     mesh_connection *connection = connect(3, position, 1, 3, corner);
     (void)state;

@@ -348,7 +348,7 @@ static void a_bad_setting_is_named(void **state)
     assert_refused(scene, "site..x=1", "--set site..x=1: an empty name");
     assert_refused(scene, "band.2.name=x", "--set band.2.name=x: \"2\", expected an index below 2");
     assert_refused(scene, "band.name=x", "\"name\", expected an index below 2");
-    assert_refused(scene, "name.x=1", "\"x\" lies in a value");
+    assert_refused(scene, "name.x=1", "\"x\" is inside a value");
     assert_refused(scene, "camera.position_m=[1, 2", "--set camera.position_m=[1, 2: ");
 }
 

@@ -266,7 +266,7 @@ static void a_black_box_is_a_black_body(void **state)
 
     assert_plane(s, "radiance_lwir", lwir, SUMS * lwir);
     assert_plane(s, "radiance_mwir", mwir, SUMS * mwir);
-    /* The table of temperatures costs .001 K, a radiance off by SUMS .0005 K. */
+    /* The table of temperatures costs 0.001 K, a radiance off by SUMS 0.0005 K. */
     assert_plane(s, "apparent_temperature_lwir_c", 26.85, .002);
     assert_plane(s, "apparent_temperature_mwir_c", 26.85, .002);
     scene_free(s);

@@ -43,7 +43,7 @@ static band_samples sample(band b, band_quadrature rule)
     return samples;
 }
 
-/* A band of at least .05 um with its edges anywhere in the database. */
+/* A band of at least 0.05 um with its edges anywhere in the database. */
 static band random_band(void)
 {
     const double low = uniform(low_um, high_um - .05);
@@ -125,7 +125,7 @@ static void a_smooth_spectrum_is_integrated_to_2e_6(void **state)
         const band b = random_band();
         band_samples s = sample(b, BAND_FINE);
         const double expected = dense(b.low_um, b.high_um, black_body);
-        /* Trapezoids of 2 cm-1, at most .04 um: step^2 / 12 x B'' / B of about .2 um-2. */
+        /* Trapezoids of 2 cm-1, at most 0.04 um: step^2 / 12 x B'' / B of about 0.2 um-2. */
         assert_near(sum_of(&s, black_body), expected, 2e-6 * expected);
         band_samples_free(&s);
     }

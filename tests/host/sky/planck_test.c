@@ -16,7 +16,7 @@ static void all_wavelengths_together_give_stefan_and_boltzmann(void **state)
     double sum = 0.0;
 
     (void)state;
-    for (int i = 0; i < 200000; i++) { /* in ln of the wavelength, .3 to 3000 um */
+    for (int i = 0; i < 200000; i++) { /* in ln of the wavelength, 0.3 to 3000 um */
         const double step = log(1e4) / 200000, l = .3 * exp((i + .5) * step);
         sum += planck_spectral(planck_at(l, false), 1000.0) * l * step;
     }

@@ -47,7 +47,7 @@ static void at_the_june_solstice_noon_is_the_obliquity_from_the_latitude(void **
 static void at_the_equinox_the_sun_is_on_the_horizon_of_the_pole(void **state)
 {
     (void)state;
-    assert_near(zenith_deg(march_equinox_s, 90, 0), 90, 0.012); /* .01 and the parallax of .0024 */
+    assert_near(zenith_deg(march_equinox_s, 90, 0), 90, 0.012); /* 0.01 and the parallax of 0.0024 */
 }
 
 static void a_solstice_day_is_symmetric_about_noon(void **state)
@@ -108,7 +108,7 @@ static void equinox_days_last_twelve_hours(void **state)
     /* Midnight in UTC at longitude 0. */
     assert_true(sun_rise_and_set(953510400, 40, 0, &rise_h, &set_h));
 
-    assert_near(set_h - rise_h, 12, 0.03); /* declination moves by .2 degrees in half a day */
+    assert_near(set_h - rise_h, 12, 0.03); /* declination moves by 0.2 degrees in half a day */
     assert_near((set_h + rise_h) / 2, 12 + 7.5 / 60, 0.02); /* equation of time -7.5 min */
 }
 
@@ -120,7 +120,7 @@ static void a_solstice_day_at_43_degrees_lasts_as_long_as_its_hour_angle(void **
 
     assert_true(sun_rise_and_set(961545600, 43, 0, &rise_h, &set_h));
 
-    assert_near(set_h - rise_h, hour_angle / DEGREES / 7.5, 0.01); /* .01 degrees and the search */
+    assert_near(set_h - rise_h, hour_angle / DEGREES / 7.5, 0.01); /* 0.01 degrees and the search */
 }
 
 static void nothing_rises_in_the_polar_day(void **state)

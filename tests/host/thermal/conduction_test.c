@@ -9,7 +9,7 @@ static const char row[] = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 4 0 0\n"
                           "usemtl steel\nf 1 2 7 6\nf 2 3 8 7\nf 3 4 9 8\n"
                           "usemtl wood\nf 4 5 10 9\n";
 
-/* Reads the row; facets are .1 m thick. Returns the patches of a conductivity. */
+/* Reads the row; facets are 0.1 m thick. Returns the patches of a conductivity. */
 static conduction_map *find(float conductivity_w_m_k, facet_record *facet)
 {
     const geometry_instance instance = {.path = scratch_path("row.obj"), .scale = 1.0};
@@ -49,7 +49,7 @@ static void squares_of_a_material_are_one_patch_filled_up_to_sixteen(void **stat
     conduction_free(map);
 }
 
-/* k d w / distance = 50 x .1 x 1 / 1 */
+/* k d w / distance = 50 x 0.1 x 1 / 1 */
 static void neighbours_are_linked_by_k_d_w_over_their_distance(void **state)
 {
     facet_record facet[4] = {{.two_sided = 0}};
@@ -69,7 +69,7 @@ static void neighbours_are_linked_by_k_d_w_over_their_distance(void **state)
 static void a_material_that_hardly_conducts_makes_no_patch(void **state)
 {
     facet_record facet[4] = {{.two_sided = 0}};
-    conduction_map *map = find(0.1f, facet); /* .01 W/m2/K, half of what counts */
+    conduction_map *map = find(0.1f, facet); /* 0.01 W/m2/K, half of what counts */
 
     (void)state;
     assert_int_equal(map->patch_count, 0);

@@ -30,7 +30,7 @@ static void the_first_value_that_is_not_finite_is_found(void **state)
     assert_int_equal(value_check_finite(bad + 3, 1), 0);
 }
 
-/* A surface of 1 K is at -272.15 C in single precision, .0000153 K beside it. */
+/* A surface of 1 K is at -272.15 C in single precision, 0.0000153 K beside it. */
 static void no_value_is_no_temperature_and_1_k_is_one(void **state)
 {
     const float good[] = {-9999.0f, -272.15f, 26.85f, 5726.85f}, bad[] = {20.0f, -273.15f};

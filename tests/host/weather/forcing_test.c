@@ -91,7 +91,7 @@ static void tarp_s_wind_is_that_of_a_medium_rough_plate(void **state)
     assert_near(f.convection_w_m2_k, 2.537 * 1.52 * sqrt(3 * 16.0 / 16), 1e-4); /* 4 m x 4 m */
 }
 
-/* rho cp k^2 V / (.74 ln^2(z/z0)), g z / V^2 and 5.3 x 9.4 k^2 / ln^2(z/z0) (z/z0)^.5. */
+/* rho cp k^2 V / (0.74 ln^2(z/z0)), g z / V^2 and 5.3 x 9.4 k^2 / ln^2(z/z0) (z/z0)^0.5. */
 static void similarity_takes_the_logarithmic_wind_s_part(void **state)
 {
     (void)state;
@@ -149,7 +149,7 @@ static void without_a_beam_all_skies_are_isotropic(void **state)
 }
 
 /* kWh/m2 that fall on a wall to the east on the clear 23 June 1992 at 43.083 N, 77.667 W; the ground
- * reflects .2 as in the numbers that it is compared with. */
+ * reflects 0.2 as in the numbers that it is compared with. */
 static double east_wall_kwh(forcing_diffuse diffuse)
 {
     const site rochester = {43.083, -77.667, 709311600, -240};

@@ -94,7 +94,7 @@ static void the_dew_point_stays_and_gives_the_stated_humidity_at_sunrise(void **
     const double dew_point_k = weather_dew_point_k(9 + KELVIN, 0.9);
 
     for (size_t i = 0; i < w->count; i++) assert_near(w->record[i].dew_point_k, dew_point_k, 1e-4);
-    assert_near(at(w, 24 + 5.5)->relative_humidity, 0.9, 0.005); /* .02 K above the lowest */
+    assert_near(at(w, 24 + 5.5)->relative_humidity, 0.9, 0.005); /* 0.02 K above the lowest */
     assert_true(at(w, 39.5)->relative_humidity < 0.5);
     weather_free(w);
 }
@@ -133,7 +133,7 @@ static void there_is_light_when_the_sun_is_up_and_never_more_than_arrives(void *
     weather_free(w);
 }
 
-/* The report's equations worked by hand for one air mass (.99949), 1.5 cm of water, sea level. */
+/* The report's equations worked by hand for one air mass (0.99949), 1.5 cm of water, sea level. */
 static void the_sun_at_zenith_gives_what_the_equations_give(void **state)
 {
     (void)state;
