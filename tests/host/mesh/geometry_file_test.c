@@ -220,7 +220,7 @@ static void a_geometry_is_written_in_the_axes_and_winding_of_1994(void **state)
     geometry_file *g = read_geometry(text_file(printed));
     assert_int_equal(geometry_file_write(g, text_file_at), STATUS_OK);
     FILE *stream = fopen(text_file_at, "rb");
-    fread(text, 1, sizeof text - 1, stream);
+    assert_true(fread(text, 1, sizeof text - 1, stream) > 0);
     fclose(stream);
     assert_non_null(strstr(text, "\n4\n6.000000000e+01 -3.000000000e+01 -1.000000000e+00\n"
                                  "6.000000000e+01 -6.000000000e+01 -1.000000000e+00\n"

@@ -126,7 +126,7 @@ static void a_deck_is_written_in_the_manuals_columns(void **state)
     (void)state;
     assert_int_equal(card_deck_write(&deck, text_file_at), STATUS_OK);
     FILE *stream = fopen(text_file_at, "rb");
-    fread(text, 1, sizeof text - 1, stream);
+    assert_true(fread(text, 1, sizeof text - 1, stream) > 0);
     fclose(stream);
     assert_string_equal(text, expected);
 }
