@@ -46,7 +46,7 @@ status record_file_number(record_file *file, double low, double high, double *ou
 /* Takes a line that holds one whole number from low to high. */
 status record_file_count(record_file *file, long low, long high, long *out, const char *expected);
 
-/* Sets a failure at the line that was taken last: `path:line: 'text' stands there, expected ...`.
+/* Sets a failure at the line that was taken last: `path:line: found 'text', expected ...`.
  */
 __attribute__((format(printf, 2, 3))) status record_file_reject(const record_file *file,
                                                                 const char *expected, ...);
