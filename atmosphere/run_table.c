@@ -342,7 +342,7 @@ status run_table_write(run_table *t, const char *const *decks, const char *path)
     qsort(t->rows, t->count, sizeof *t->rows, compare);
     for (int i = 0; i < grids; i++) TRY(write_grid(t, decks, path, i, &files[i]));
     for (int i = 0; i < grids; i++) TRY(check_database(files[i]));
-    for (int i = 0; i < grids; i++) TRY(output_file_commit(files[i]));
+    TRY(output_file_commit_all(files, (size_t)grids));
 out:
     for (int i = 0; files && i < grids; i++) output_file_free(files[i]);
     free(files);

@@ -6,6 +6,11 @@
 #ifdef __OPENCL_C_VERSION__
 
 #pragma OPENCL FP_CONTRACT OFF
+/* What a work-item has of rays, and of other problems side by side: 16 on CPUs, in vectors; 1 on GPUs. The
+ * host says so for each device. */
+#ifndef RAY_LANES
+#define RAY_LANES 16
+#endif
 #ifdef __clang__
 /* Vectors of 16 go through functions of this program alone: another ABI than other CPUs' does no harm. */
 #pragma clang diagnostic ignored "-Wpsabi"

@@ -6,7 +6,7 @@
 #include "kernels/mask.h"
 
 #if !defined(LANES_WIDTH) && defined(__OPENCL_C_VERSION__)
-#define LANES_WIDTH 16
+#define LANES_WIDTH RAY_LANES
 #elif !defined(LANES_WIDTH)
 #define LANES_WIDTH 1
 #endif

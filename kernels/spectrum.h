@@ -6,8 +6,11 @@
 #include "kernels/constants.h"
 #include "kernels/dialect.h"
 
-#if !defined(SPECTRUM_WIDTH) && defined(__OPENCL_C_VERSION__)
+/* A GPU's work-item has registers for few vectors of 16. */
+#if !defined(SPECTRUM_WIDTH) && defined(__OPENCL_C_VERSION__) && RAY_LANES == 16
 #define SPECTRUM_WIDTH 16
+#elif !defined(SPECTRUM_WIDTH) && defined(__OPENCL_C_VERSION__)
+#define SPECTRUM_WIDTH 4
 #elif !defined(SPECTRUM_WIDTH)
 #define SPECTRUM_WIDTH 1
 #endif
@@ -16,7 +19,7 @@
 
 typedef float16 spectrum;
 
-/* Samples 16 block .. 16 block + 15 of a row. */
+/* Samples SPECTRUM_WIDTH block .. SPECTRUM_WIDTH block + SPECTRUM_WIDTH - 1 of a row. */
 static inline spectrum spectrum_load(global const float *row, uint block)
 {
     return vload16(block, row);
@@ -54,6 +57,20 @@ static inline void spectrum_turn(const spectrum *from, spectrum *out)
         UNROLL
         for (int i = 0; i < 16; i++) out[i] = next[i];
     }
+}
+
+#elif SPECTRUM_WIDTH == 4
+
+typedef float4 spectrum;
+
+static inline spectrum spectrum_load(global const float *row, uint block)
+{
+    return vload4(block, row);
+}
+
+static inline void spectrum_store(spectrum s, global float *row, uint block)
+{
+    vstore4(s, block, row);
 }
 
 #elif SPECTRUM_WIDTH == 1

@@ -1,6 +1,7 @@
 #include "bench.h"
 
 #include "base/clock.h"
+#include "base/interrupt.h"
 #include "motion.h"
 
 static const double orbit_s = 5.0, orbit_deg = 0.5;
@@ -13,6 +14,7 @@ static status draw_next(preview *p, bool is_exact)
     event unused;
 
     while (!p->live || p->live->wish != p->wished || (is_exact && !p->live->is_exact)) {
+        TRY(interrupt_check());
         TRY(preview_step(p, &drew));
         NEED(!p->state.error[0], STATUS_DEVICE, "%s", p->state.error);
         if (!drew) p->s->take(p->s, &unused, 0.001);

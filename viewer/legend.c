@@ -11,12 +11,14 @@ static void draw_ticks(const preview *p, preview_rectangle bar)
     const value_range range = p->colours.range;
     const double span = range.max - range.min;
     const double step = value_range_step(span * TICK_DISTANCE * p->scale / bar.height);
+    double tick[VALUE_RANGE_TICKS];
+    const size_t count = value_range_ticks(&range, step, tick);
     char text[64];
 
-    for (double n = ceil(range.min / step); n * step <= range.max + 1e-9 * span; n++) {
-        const double y = bar.y + bar.height * (1.0 - (n * step - range.min) / span);
+    for (size_t i = 0; i < count; i++) {
+        const double y = bar.y + bar.height * (1.0 - (tick[i] - range.min) / span);
         canvas_fill(p->c, bar.x + bar.width, floor(y), 5.0 * p->scale, 1.0, line);
-        value_range_label(text, sizeof text, n * step, step);
+        value_range_label(text, sizeof text, tick[i], step);
         canvas_text(p->c, bar.x + bar.width + 8.0 * p->scale,
                     y - 0.5 * canvas_line_height(p->c, CANVAS_TEXT), CANVAS_TEXT, ink, text);
     }

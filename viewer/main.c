@@ -1,5 +1,6 @@
 /* radsig-view: the preview, as a program of its own; `radsig view` starts it. */
 #include "base/clock.h"
+#include "base/interrupt.h"
 #include "base/number.h"
 #include "base/parallel_job.h"
 #include "bench.h"
@@ -78,6 +79,7 @@ static status attend(preview *p)
 
     while (!p->quits) {
         const double wait_s = p->state.is_at_rest ? 0.03 : 0.004;
+        TRY(interrupt_check());
         for (bool more = p->s->take(p->s, &e, wait_s); more; more = p->s->take(p->s, &e, 0.0))
             control_take(p, &e);
         TRY(preview_step(p, &drew));
@@ -127,6 +129,7 @@ static status run(const arguments *a, const char *scene_path, double start_s)
     preview *p = NULL;
     int width, height;
 
+    interrupt_catch_signals();
     TRY(parallel_run(list, sizeof list / sizeof *list));
     program_warn(command);
     const int columns = a->columns ? (int)a->columns : o.of->s->camera.columns;
@@ -148,7 +151,7 @@ out:
     preview_free(p);
     if (s) s->free(s);
     shared_scene_drop(o.of);
-    return rc;
+    return interrupt_status(rc);
 }
 
 int main(int argc, char **argv)

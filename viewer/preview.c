@@ -1,5 +1,7 @@
 #include "preview.h"
 
+#include "base/interrupt.h"
+#include "control.h"
 #include "image/image.h"
 #include "inspection.h"
 #include "page.h"
@@ -15,16 +17,16 @@ static const double pause_s = 0.005;
 static status check_plane(const shared_scene *of, const char *plane)
 {
     status rc = STATUS_OK;
-    static const double no_wavelengths[4096];
+    double *no_wavelengths = calloc(of->s->band_count, sizeof *no_wavelengths);
     render_plane *planes = NULL;
     size_t count = 0;
 
-    NEED(of->s->band_count <= 4096, STATUS_ARGUMENT, "%u bands, expected up to 4096 to preview",
-         of->s->band_count);
+    NEED(no_wavelengths, STATUS_MEMORY, "no memory for the list of planes");
     TRY(render_plane_list(&planes, &count, of->s, no_wavelengths, no_wavelengths));
     TRY(render_plane_check(planes, count, plane));
 out:
     free(planes);
+    free(no_wavelengths);
     return rc;
 }
 
@@ -219,6 +221,8 @@ static void take_state(preview *p)
         floor(20.0 * state.progress) != floor(20.0 * p->state.progress) ||
         state.task != p->state.task)
         p->is_stale = true;
+    if (state.warning[0] && strcmp(state.warning, p->state.warning))
+        preview_note(p, "warning: %s", state.warning);
     p->state = state;
     if (!p->full || full_render_is_told(p->full)) return;
     percent = full_render_percent(p->full);
@@ -284,15 +288,17 @@ out:
 status preview_rest(preview *p)
 {
     status rc = STATUS_OK;
-    event unused;
+    event e;
     bool drew, rested = false;
 
-    while (!rested) {
+    while (!rested && !p->quits) {
+        TRY(interrupt_check());
         session_state state;
         session_look(p->work, &state);
         rested = state.is_at_rest && (!p->prints_values || state.error[0]);
         TRY(preview_step(p, &drew));
-        if (!rested) p->s->take(p->s, &unused, pause_s);
+        if (rested || !p->s->take(p->s, &e, pause_s)) continue;
+        if (e.kind == EVENT_CLOSE || e.kind == EVENT_RESIZE) control_take(p, &e);
     }
 out:
     return rc;

@@ -48,8 +48,10 @@ void saving_view(preview *p)
     free_stem(p, "view", endings, stem);
     snprintf(path, sizeof path, "%s.toml", stem);
     rc = view_write_table(&v, path);
+    if (v.width_m > 0.0) goto out; /* which an .adv does not know */
     snprintf(path, sizeof path, "%s.adv", stem);
     if (rc == STATUS_OK) rc = view_write(&v, path);
+out:
     tell(p, rc, path);
 }
 

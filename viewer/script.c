@@ -1,6 +1,7 @@
 #include "script.h"
 
 #include "base/clock.h"
+#include "base/interrupt.h"
 #include "base/number.h"
 #include "control.h"
 #include "files/record_file.h"
@@ -25,7 +26,8 @@ static status pause_for(preview *p, double wait_s)
     const double end_s = clock_now_s() + wait_s;
     event e;
 
-    while (clock_now_s() < end_s) {
+    while (clock_now_s() < end_s && !p->quits) {
+        TRY(interrupt_check());
         TRY(draw(p));
         if (p->s->take(p->s, &e, 0.02)) control_take(p, &e);
     }

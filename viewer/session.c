@@ -1,8 +1,9 @@
 #include "session.h"
 
 #include "base/clock.h"
-#include "file_stamp.h"
+#include "base/interrupt.h"
 #include "scene/scene_limits.h"
+#include "scene_stamp.h"
 
 #include <errno.h>
 #include <math.h>
@@ -23,6 +24,7 @@ struct session {
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool has_thread;
+    atomic_int token; /* interrupts the thread */
 
     /* Under the lock. */
     session_wish wish;
@@ -38,7 +40,7 @@ struct session {
     device *dev;
     shared_scene *of;
     render *r;
-    file_stamp stamp;
+    scene_stamp stamp;
     double stated_time_s; /* by the scene's files */
     bool stated_thesis, is_broken;
 };
@@ -110,7 +112,7 @@ static status reload(session *s, const session_wish *wish)
     s->stated_time_s = stated->s->place.time_s;
     s->stated_thesis = stated->s->thesis;
     TRY(reopen(s, wish));
-    s->stamp = file_stamp_of(s->of->s);
+    s->stamp = scene_stamp_read(stated->s);
     s->is_broken = false;
 out:
     shared_scene_drop(stated);
@@ -228,14 +230,18 @@ out:
 /* Keeps what became of a wish; one that another replaced meanwhile has no end. */
 static void settle(session *s, unsigned number, status rc)
 {
+    const char *warnings = status_warnings();
+
     pthread_mutex_lock(&s->lock);
     if (!s->is_broken) s->state.error[0] = '\0'; /* else it stays until the files are right */
     if (rc != STATUS_OK) snprintf(s->state.error, sizeof s->state.error, "%s", status_message());
+    if (*warnings)
+        snprintf(s->state.warning, sizeof s->state.warning, "%.*s", (int)strcspn(warnings, "\n"),
+                 warnings);
     if (s->wished == number) s->answered = number;
     s->state.task = "";
     pthread_mutex_unlock(&s->lock);
     status_clear();
-    status_warnings();
 }
 
 /* Makes the day of the picked pixel, of the look of the last exact frame. */
@@ -260,14 +266,15 @@ static void *work(void *argument)
 {
     session *s = argument;
 
+    interrupt_obey(&s->token);
     pthread_mutex_lock(&s->lock);
     while (!s->quits) {
         const session_wish wish = s->wish;
         const unsigned number = s->wished;
         const bool is_new = s->answered != number, has_pick = s->has_pick;
         pthread_mutex_unlock(&s->lock);
-        const file_stamp stamp = file_stamp_of(s->of->s);
-        if (!file_stamp_equal(stamp, s->stamp)) {
+        const scene_stamp stamp = scene_stamp_now(s->of->s);
+        if (!scene_stamp_equal(stamp, s->stamp)) {
             s->stamp = stamp;
             status rc = reload(s, &wish);
             if (rc == STATUS_OK) rc = answer(s, &wish, number);
@@ -297,7 +304,7 @@ status session_open(session **out, shared_scene *first, const session_wish *wish
     s->of = shared_scene_hold(first);
     s->stated_time_s = first->s->place.time_s;
     s->stated_thesis = first->s->thesis;
-    s->stamp = file_stamp_of(first->s);
+    s->stamp = scene_stamp_read(first->s);
     s->wish = *wish;
     s->wished = 1;
     s->state.task = "opening";
@@ -316,6 +323,7 @@ void session_free(session *s)
     if (s->has_thread) {
         pthread_mutex_lock(&s->lock);
         s->quits = true;
+        atomic_store(&s->token, 1);
         pthread_cond_signal(&s->changed);
         pthread_mutex_unlock(&s->lock);
         pthread_join(s->thread, NULL);

@@ -19,10 +19,11 @@ typedef struct session_wish {
 
 /* What a session is at. */
 typedef struct session_state {
-    bool is_at_rest;  /* the newest frame is exact and answers the last wish, or the wish failed */
-    double progress;  /* share of the exact frame, 0..1 */
-    const char *task; /* a constant text */
-    char error[2048]; /* of the last wish or of the files; empty: none */
+    bool is_at_rest;   /* the newest frame is exact and answers the last wish, or the wish failed */
+    double progress;   /* share of the exact frame, 0..1 */
+    const char *task;  /* a constant text */
+    char error[2048];  /* of the last wish or of the files; empty: none */
+    char warning[512]; /* the first of the last that were given; empty: none */
 } session_state;
 
 /* A coarse frame has at least this many columns and rows, if the exact one has. */
@@ -31,7 +32,7 @@ enum { SESSION_COARSE_COLUMNS = 320, SESSION_COARSE_ROWS = 240 };
 /* Opens the device and starts. The scene was read from its path without settings; it is held. */
 status session_open(session **out, shared_scene *first, const session_wish *wish);
 
-/* Ends the thread; waits for the tile that is being rendered. */
+/* Ends the thread, whatever it is at: it is interrupted. */
 void session_free(session *s);
 
 /* Replaces the wish; returns its number. */

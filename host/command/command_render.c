@@ -5,6 +5,7 @@
 #include "command/command_scene.h"
 #include "command/command_value.h"
 #include "device/pocl_affinity.h"
+#include "device/pocl_cache.h"
 #include "image/picture.h"
 #include "render/render_output.h"
 
@@ -191,6 +192,7 @@ static status run(const arguments *a)
     const parallel_job list[] = {{read_scene, &o}, {prepare_pictures, &o}, {open_devices, &o}};
 
     pocl_affinity_set(); /* the environment is another thread's later */
+    pocl_cache_choose();
     TRY(parallel_run(list, sizeof list / sizeof *list));
     TRY(render_output(o.s, o.dev, a->device_count, &a->output));
 out:

@@ -3,8 +3,10 @@
 
 #include "base/interrupt.h"
 #include "device/device_error.h"
-#include "device/kernel_source.h"
-#include "device/pocl_affinity.h"
+#include "device/kernel_ahead.h"
+#include "device/kernel_program.h"
+#include "device/pocl_cache.h"
+#include "device/pocl_manifest.h"
 #include "launches.h"
 
 #include <CL/cl.h>
@@ -12,8 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { PACKET = 16 };
 
 /* Times are kept as events until someone waits; then they are added up. */
 enum { PENDING_LIMIT = 1024 };
@@ -40,119 +40,11 @@ struct device {
     device_time times[KERNEL_COUNT];
     device_launch_event pending[PENDING_LIMIT];
     size_t pending_count;
-    double pending_s; /* what they are expected to take */
+    double pending_s;      /* what they are expected to take */
+    uint64_t key;          /* of the kernels in PoCL's cache */
+    bool is_pocl, is_cold; /* cold: the cache does not have them yet */
+    kernel_ahead *ahead;
 };
-
-/* A packet a work-item where there are vectors. */
-static uint32_t choose_ray_lanes(const device_info *info)
-{
-    const char *wanted = getenv("RADSIG_RAY_LANES");
-
-    if (wanted && !strcmp(wanted, "1")) return 1;
-    if (wanted && !strcmp(wanted, "16")) return PACKET;
-    return strcmp(info->type, "cpu") ? 1 : PACKET;
-}
-
-static void describe(device_info *info, cl_platform_id platform, cl_device_id id)
-{
-    cl_device_type type = 0;
-    cl_ulong memory = 0, allocation = 0;
-    cl_uint units = 0;
-
-    memset(info, 0, sizeof *info);
-    clGetPlatformInfo(platform, CL_PLATFORM_NAME, sizeof info->platform, info->platform, NULL);
-    clGetDeviceInfo(id, CL_DEVICE_NAME, sizeof info->name, info->name, NULL);
-    clGetDeviceInfo(id, CL_DEVICE_VERSION, sizeof info->version, info->version, NULL);
-    clGetDeviceInfo(id, CL_DEVICE_TYPE, sizeof type, &type, NULL);
-    clGetDeviceInfo(id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
-    clGetDeviceInfo(id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
-    clGetDeviceInfo(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof allocation, &allocation, NULL);
-    /* The CPU bit is looked at first: some CPU devices claim every type. */
-    strcpy(info->type, type & CL_DEVICE_TYPE_CPU   ? "cpu"
-                       : type & CL_DEVICE_TYPE_GPU ? "gpu"
-                                                   : "accelerator");
-    info->ray_lanes = choose_ray_lanes(info);
-    info->compute_units = units;
-    info->memory_bytes = memory;
-    info->allocation_bytes = allocation;
-}
-
-typedef struct device_choice {
-    cl_platform_id platform;
-    cl_device_id id;
-} device_choice;
-
-enum { PLATFORM_LIMIT = 16, DEVICE_LIMIT = 64 };
-
-static status find_devices(device_choice choices[DEVICE_LIMIT], size_t *out_count)
-{
-    status rc = STATUS_OK;
-    cl_platform_id platforms[PLATFORM_LIMIT];
-    cl_device_id ids[DEVICE_LIMIT];
-    cl_uint platform_count = 0, id_count;
-    size_t count = 0;
-
-    pocl_affinity_set();
-    if (clGetPlatformIDs(PLATFORM_LIMIT, platforms, &platform_count) != CL_SUCCESS)
-        platform_count = 0;
-    if (platform_count > PLATFORM_LIMIT) platform_count = PLATFORM_LIMIT;
-    NEED(platform_count > 0, STATUS_DEVICE,
-         "no OpenCL platform was found: install one, for the CPU the package pocl-opencl-icd");
-    for (cl_uint p = 0; p < platform_count; p++) {
-        if (clGetDeviceIDs(platforms[p], CL_DEVICE_TYPE_ALL, DEVICE_LIMIT, ids, &id_count))
-            continue;
-        for (cl_uint d = 0; d < id_count && d < DEVICE_LIMIT && count < DEVICE_LIMIT; d++)
-            choices[count++] = (device_choice){platforms[p], ids[d]};
-    }
-    NEED(count > 0, STATUS_DEVICE,
-         "no OpenCL platform has a device: for the CPU install the package pocl-opencl-icd");
-    *out_count = count;
-out:
-    return rc;
-}
-
-status device_list(device_info **out_info, size_t *out_count)
-{
-    status rc = STATUS_OK;
-    device_choice choices[DEVICE_LIMIT];
-    device_info *info = NULL;
-    size_t count, preferred = 0;
-
-    TRY(find_devices(choices, &count));
-    info = calloc(count, sizeof *info);
-    NEED(info, STATUS_MEMORY, "no memory for the list of devices");
-    for (size_t i = 0; i < count; i++) {
-        describe(&info[i], choices[i].platform, choices[i].id);
-        info[i].index = (uint32_t)i;
-    }
-    for (size_t i = count; i-- > 0;)
-        if (!strcmp(info[i].type, "cpu")) preferred = i;
-    info[preferred].is_default = true;
-    *out_info = info;
-    *out_count = count;
-out:
-    return rc;
-}
-
-static status choose(device *dev, int index)
-{
-    status rc = STATUS_OK;
-    device_choice choices[DEVICE_LIMIT];
-    device_info *info = NULL;
-    size_t count;
-
-    TRY(device_list(&info, &count));
-    TRY(find_devices(choices, &count));
-    NEED(index < (int)count, STATUS_ARGUMENT,
-         "device %d: unknown, expected 0 to %zu (radsig devices)", index, count - 1);
-    for (size_t i = 0; index < 0; i++)
-        if (info[i].is_default) index = (int)i;
-    dev->id = choices[index].id;
-    dev->info = info[index];
-out:
-    free(info);
-    return rc;
-}
 
 status device_open(device **out, int index)
 {
@@ -161,12 +53,16 @@ status device_open(device **out, int index)
     device *dev = calloc(1, sizeof *dev);
 
     NEED(dev, STATUS_MEMORY, "no memory for a device");
-    TRY(choose(dev, index));
+    TRY(device_list_choose(&dev->id, &dev->info, index));
     dev->context = clCreateContext(NULL, 1, &dev->id, NULL, NULL, &error);
     NEED(dev->context, STATUS_DEVICE, "device %s: no context: %s", dev->info.name,
          device_error(error));
     dev->queue = clCreateCommandQueue(dev->context, dev->id, CL_QUEUE_PROFILING_ENABLE, &error);
     NEED(dev->queue, STATUS_DEVICE, "device %s: no queue: %s", dev->info.name, device_error(error));
+    dev->key = kernel_program_key(&dev->info);
+    dev->is_pocl = strstr(dev->info.platform, "Portable Computing Language") != NULL;
+    if (dev->is_pocl) pocl_manifest_check(pocl_cache_folder());
+    dev->is_cold = dev->is_pocl && !pocl_cache_has(dev->key);
     for (size_t i = 0; i < KERNEL_COUNT; i++) dev->times[i].kernel = device_kernels[i].name;
     *out = dev;
     dev = NULL;
@@ -219,6 +115,8 @@ void device_free(device *dev)
 {
     if (!dev) return;
     if (dev->queue) collect_times(dev);
+    if (kernel_ahead_free(dev->ahead)) pocl_cache_note(dev->key);
+    if (dev->is_pocl) pocl_manifest_update(pocl_cache_folder());
     for (size_t i = 0; i < KERNEL_COUNT; i++) {
         if (!dev->kernels[i].kernel) continue;
         clReleaseKernel(dev->kernels[i].kernel);
@@ -325,53 +223,36 @@ void device_memory_unmap(device *dev, device_memory memory, const void *mapped)
     clFinish(dev->queue);
 }
 
-static status build_failure(device *dev, const char *name, cl_program program, cl_int error)
-{
-    char *log = NULL;
-    size_t size = 0;
-    status rc;
-
-    clGetProgramBuildInfo(program, dev->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size);
-    log = calloc(1, size + 1);
-    if (log) clGetProgramBuildInfo(program, dev->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
-    rc = status_set(STATUS_DEVICE, "kernel %s does not build on %s: %s\n%s", name, dev->info.name,
-                    device_error(error), log ? log : "");
-    free(log);
-    return rc;
-}
-
-static status build_kernel(device *dev, const char *name, built_kernel *out)
-{
-    status rc = STATUS_OK;
-    cl_int error;
-    cl_program program = NULL;
-    char *text = NULL, options[64];
-
-    TRY(kernel_source_read(&text, name));
-    program = clCreateProgramWithSource(dev->context, 1, (const char **)&text, NULL, &error);
-    NEED(program, STATUS_DEVICE, "kernel %s: %s", name, device_error(error));
-    snprintf(options, sizeof options, "-cl-std=CL1.2 -DRAY_LANES=%u", dev->info.ray_lanes);
-    error = clBuildProgram(program, 1, &dev->id, options, NULL, NULL);
-    if (error != CL_SUCCESS) TRY(build_failure(dev, name, program, error));
-    out->kernel = clCreateKernel(program, name, &error);
-    if (!out->kernel) TRY(build_failure(dev, name, program, error));
-    out->program = program;
-    program = NULL;
-out:
-    if (program) clReleaseProgram(program);
-    free(text);
-    return rc;
-}
-
 status device_prepare(device *dev, size_t kernel)
 {
     status rc = STATUS_OK;
+    cl_program program = NULL;
+    cl_int error;
 
     if (dev->kernels[kernel].kernel) return STATUS_OK;
     TRY(interrupt_check());
-    TRY(build_kernel(dev, device_kernels[kernel].name, &dev->kernels[kernel]));
+    if (dev->ahead) kernel_ahead_take(dev->ahead, kernel);
+    TRY(kernel_program_build(&program, dev->context, dev->id, &dev->info,
+                             device_kernels[kernel].name));
+    dev->kernels[kernel].kernel = clCreateKernel(program, device_kernels[kernel].name, &error);
+    NEED(dev->kernels[kernel].kernel, STATUS_DEVICE, "kernel %s on %s: %s",
+         device_kernels[kernel].name, dev->info.name, device_error(error));
+    dev->kernels[kernel].program = program;
+    program = NULL;
 out:
+    if (program) clReleaseProgram(program);
     return rc;
+}
+
+bool device_build_ahead(device *dev, const size_t *kernels, size_t count)
+{
+    if (!dev->is_cold) return false;
+    if (!dev->ahead && kernel_ahead_open(&dev->ahead, dev->id, &dev->info) != STATUS_OK) {
+        status_clear();
+        return false;
+    }
+    kernel_ahead_add(dev->ahead, kernels, count);
+    return true;
 }
 
 static status set_arguments(device *dev, size_t kernel, const char *arguments)

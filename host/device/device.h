@@ -4,6 +4,7 @@
 #define DEVICE_H
 
 #include "base/status.h"
+#include "device/device_list.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -11,22 +12,6 @@
 
 typedef struct device device;
 typedef struct _cl_mem *device_memory;
-
-/* What OpenCL says of a device; texts are cut to fit. */
-typedef struct device_info {
-    char platform[256], name[256], version[256], type[16];
-    uint32_t index; /* as device_open counts */
-    uint32_t compute_units;
-    uint64_t memory_bytes, allocation_bytes;
-    uint32_t
-        ray_lanes; /* rays of a work-item: 16 on CPUs, else 1; RADSIG_RAY_LANES says otherwise */
-    bool is_default;
-} device_info;
-
-/* Lists the devices of all platforms, in the order that `device_open` counts them.
- *   out_info   the caller frees it
- * Fails with STATUS_DEVICE where there is no platform, naming the package to install. */
-status device_list(device_info **out_info, size_t *out_count);
 
 /* Opens device `index`, or with -1 the default: the first CPU, else the first device. */
 status device_open(device **out, int index);
@@ -144,6 +129,10 @@ extern const device_kernel device_kernels[];
 
 /* Builds a kernel before its first launch, so that it need not be waited for there. */
 status device_prepare(device *dev, size_t kernel);
+
+/* Has kernels (KERNEL_... of launches.h), in the order in which they will be launched, built beside the
+ * work of others. False where that would be in vain: PoCL's cache has them, or OpenCL is not PoCL. */
+bool device_build_ahead(device *dev, const size_t *kernels, size_t count);
 
 /* Launches a kernel over a shape; x is padded to the local size, so the kernel returns where its index
  * is past the end. A CPU takes long launches in portions along x. Waits where others would be much work,

@@ -47,7 +47,7 @@ typedef struct layout {
     uint32_t page_width, page_height;
     value_range range;
     bool has_bar;
-    line tick[64], legend[NAMED_LINES + 2];
+    line tick[VALUE_RANGE_TICKS], legend[NAMED_LINES + 2];
     uint32_t tick_count, legend_count;
 } layout;
 
@@ -160,14 +160,14 @@ static void list_ticks(layout *lay)
 {
     const double span = lay->range.max - lay->range.min, height = bar_height(lay) - 1;
     const double step = value_range_step(span * TICK_DISTANCE / height);
-    const size_t most = sizeof lay->tick / sizeof *lay->tick;
+    double tick[VALUE_RANGE_TICKS];
 
-    for (double n = ceil(lay->range.min / step - 1e-9); lay->tick_count < most; n++) {
-        const double fraction = (n * step - lay->range.min) / span;
-        if (fraction > 1.0 + 1e-9) break;
-        line *to = &lay->tick[lay->tick_count++];
-        value_range_label(to->text, sizeof to->text, n * step, step);
-        to->y = (uint32_t)lround((1.0 - fmin(fmax(fraction, 0.0), 1.0)) * height);
+    lay->tick_count = (uint32_t)value_range_ticks(&lay->range, step, tick);
+    for (uint32_t i = 0; i < lay->tick_count; i++) {
+        const double share = (tick[i] - lay->range.min) / span;
+        line *to = &lay->tick[i];
+        value_range_label(to->text, sizeof to->text, tick[i], step);
+        to->y = (uint32_t)lround((1.0 - fmin(fmax(share, 0.0), 1.0)) * height);
     }
 }
 

@@ -133,6 +133,20 @@ double value_range_step(double least)
     return power * (ratio <= 1.0 ? 1.0 : ratio <= 2.0 ? 2.0 : ratio <= 5.0 ? 5.0 : 10.0);
 }
 
+size_t value_range_ticks(const value_range *range, double step, double *out)
+{
+    const double first = ceil(range->min / step - 1e-9), span = range->max - range->min;
+    size_t count = 0;
+
+    /* Counted: beyond 2^53 a number plus 1 is the same number. */
+    while (count < VALUE_RANGE_TICKS) {
+        const double tick = (first + (double)count) * step;
+        if (!((tick - range->min) / span <= 1.0 + 1e-9)) break;
+        out[count++] = tick;
+    }
+    return count;
+}
+
 void value_range_label(char *out, size_t size, double value, double step)
 {
     const int decimals = (int)fmax(0.0, -floor(log10(step) + 1e-9));

@@ -6,6 +6,8 @@
 
 #include <stddef.h>
 
+enum { VALUE_RANGE_TICKS = 64 };
+
 typedef struct value_range {
     double min, max; /* max above min */
     size_t valid_count, missing_count;
@@ -17,6 +19,10 @@ status value_range_find(value_range *out, const float *value, size_t count, floa
 
 /* The smallest of 1, 2, 5 times a power of ten that is not below `least`, which is positive. */
 double value_range_step(double least);
+
+/* Finds the multiples of `step` in a range, in ascending order; returns how many, up to VALUE_RANGE_TICKS.
+ *   out   shape (VALUE_RANGE_TICKS) */
+size_t value_range_ticks(const value_range *range, double step, double *out);
 
 /* Writes a tick's value with the digits that its step needs. */
 void value_range_label(char *out, size_t size, double value, double step);

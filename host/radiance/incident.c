@@ -6,8 +6,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* Pixels of a group of incident.cl, its LANES_WIDTH. */
-enum { PIXELS_AT_ONCE = 16 };
+/* The dome's points are padded to whole vectors. */
+enum { POINTS_AT_ONCE = 16 };
 
 struct incident {
     const ray_scene *scene;
@@ -81,8 +81,8 @@ static status make_dome(incident *in, const radiometry_record *frame)
     status rc = STATUS_OK;
     const uint32_t zeniths = frame->zenith_count > 1 ? frame->zenith_count - 1 : 6;
     const uint32_t azimuths = frame->azimuth_count > 1 ? frame->azimuth_count - 1 : 12;
-    const uint32_t groups = (4 * zeniths * azimuths + PIXELS_AT_ONCE - 1) / PIXELS_AT_ONCE;
-    const uint32_t count = groups * PIXELS_AT_ONCE;
+    const uint32_t groups = (4 * zeniths * azimuths + POINTS_AT_ONCE - 1) / POINTS_AT_ONCE;
+    const uint32_t count = groups * POINTS_AT_ONCE;
     float *dome = calloc((size_t)DOME_ROWS * count, sizeof *dome);
 
     NEED(dome, STATUS_MEMORY, "no memory for the sky");
@@ -165,12 +165,9 @@ static status run_media(const incident *in, const incident_pixels *p, float_buff
 status incident_compute(const incident *in, const incident_pixels *p, float_buffer out)
 {
     status rc = STATUS_OK;
-    const bool is_bundle = device_describe(ray_scene_device(in->scene))->ray_lanes > 1;
-    const uint32_t at_once = is_bundle ? RAY_BUNDLE : PIXELS_AT_ONCE;
-    const uint32_t groups = (p->frame.pixel_count + at_once - 1) / at_once;
-    const device_shape shape = {{groups, 1}, is_bundle ? 1 : 4, 0.0};
+    device *dev = ray_scene_device(in->scene);
 
-    TRY(incident_run(ray_scene_device(in->scene), shape,
+    TRY(incident_run(dev, device_bundle_shape(dev, p->frame.pixel_count, 1),
                      &(incident_args){.frame = p->frame,
                                       .camera = p->camera,
                                       .params = params_of(in, p),

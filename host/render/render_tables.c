@@ -5,9 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Work-items of band_temperature.cl for one band. */
-enum { TEMPERATURE_GROUPS = BAND_TEMPERATURES / 16 };
-
 status render_tables_take_facets(render_tables *t, device *dev, const scene *s)
 {
     status rc = STATUS_OK;
@@ -133,7 +130,7 @@ static status tabulate_bands(render_tables *t, device *dev, const scene *s)
     status rc = STATUS_OK;
     const uint32_t samples = t->bands->sample_count, rows = scene_emissivity_rows(s);
     const size_t bands = s->band_count;
-    const device_shape temperatures = {{TEMPERATURE_GROUPS, bands}, 4, 0.0};
+    const device_shape temperatures = device_ray_shape(dev, BAND_TEMPERATURES, bands);
 
     TRY(device_allocate(dev, &t->ln_radiance, bands * BAND_TEMPERATURES, NULL));
     TRY(device_allocate(dev, &t->band_emissivity, bands * rows, NULL));

@@ -251,7 +251,7 @@ static status integrate(const render_tile_memory *t, const render_shared *r,
          frame.first_group += t->groups_at_once) {
         const uint32_t left = groups - frame.first_group;
         const uint32_t some = left < t->groups_at_once ? left : t->groups_at_once;
-        const device_shape shape = {{some, 1}, GROUPS_TOGETHER, 0.0};
+        const device_shape shape = device_ray_shape(r->dev, some * PIXEL_GROUP, 1);
         TRY(radiometry_run(r->dev, shape,
                            &(radiometry_args){.frame = frame,
                                               .air = r->air,

@@ -210,6 +210,7 @@ status scene_read(scene **out, const char *path, const char *const *setting, siz
     toml_file *file = NULL;
     input_hashes *hashes = NULL;
     scene_reader reader = {.s = calloc(1, sizeof(scene))};
+    const file_stamp stamp = file_stamp_of(path);
 
     NEED(reader.s, STATUS_MEMORY, "%s: no memory to read it", path);
     TRY(set_path(reader.s, path));
@@ -217,7 +218,7 @@ status scene_read(scene **out, const char *path, const char *const *setting, siz
     NEED(toml_file_read(&file, path, setting, setting_count, message, sizeof message) == 0,
          STATUS_FORMAT, "%s", message);
     reader.root = toml_file_root(file);
-    scene_add_input(&reader, NULL, "", path);
+    if (scene_add_input(&reader, NULL, "", path)) reader.s->inputs[0].stamp = stamp;
     read_parts(&reader);
     if (reader.failure_count > 0) {
         rc = reader.ending ? reader.ending : STATUS_FORMAT;

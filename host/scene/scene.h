@@ -4,6 +4,7 @@
 #define SCENE_H
 
 #include "base/name_table.h"
+#include "files/file_stamp.h"
 #include "files/input_hash.h"
 #include "kernels/media/transmission.h"
 #include "material/emissivity.h"
@@ -52,8 +53,9 @@ const char *scene_thermal_name(scene_thermal thermal);
 
 /* A file that the scene was read from, and the hash of what was read. */
 typedef struct scene_input {
-    char *name; /* as the scene states it */
-    char *path; /* where it was found */
+    char *name;       /* as the scene states it */
+    char *path;       /* where it was found */
+    file_stamp stamp; /* before it was opened */
     input_hash hash;
 } scene_input;
 

@@ -1,5 +1,6 @@
 #include "scene/scene_limits.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -86,8 +87,8 @@ status scene_limits_disk(const scene *s, size_t plane_count, const char *folder)
 
     if (!find_disk(folder, &disk)) goto out;
     const double room = (double)disk.f_bavail * (double)disk.f_frsize;
-    NEED(bytes <= room, STATUS_FILE, "%s: no room for %.0f bytes of images, there are %.0f", folder,
-         bytes, room);
+    NEED(bytes <= room, STATUS_FILE, "%s: no room for %.0f bytes of images, there are %.0f: %s",
+         folder, bytes, room, strerror(ENOSPC));
 out:
     return rc;
 }

@@ -1,10 +1,14 @@
 #include "scene/scene_parts.h"
 
+#include "base/name_table.h"
 #include "material/material.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* So many failures tell of the nearest name. */
+enum { HINTS = 100 };
 
 /* What one [[material]] states; not-a-number, NULL and -1: nothing. */
 typedef struct stated_material {
@@ -26,7 +30,18 @@ typedef struct material_sources {
     char *library_folder; /* with a final slash */
     stated_material *stated;
     size_t stated_count;
+    name_table *stated_numbers; /* of the stated, then of what was looked up among them */
+    name_table *used_numbers;   /* of the scene's materials */
 } material_sources;
+
+/* Numbers a name; UINT32_MAX after a failure. */
+static uint32_t number_of(const material_sources *from, name_table *names, const char *name)
+{
+    uint32_t number = UINT32_MAX;
+
+    scene_took(from->reader, name_table_number(names, 0, name, &number));
+    return number;
+}
 
 static stated_material read_stated(scene_reader *reader, const toml_node *node)
 {
@@ -83,14 +98,14 @@ static void read_all_stated(material_sources *from)
         scene_took(from->reader, status_set(STATUS_MEMORY, "no memory for %zu materials", count));
         return;
     }
-    for (; from->stated_count < count; from->stated_count++)
-        from->stated[from->stated_count] =
-            read_stated(from->reader, toml_node_at(list, from->stated_count));
-    for (size_t i = 0; i < count; i++)
-        for (size_t k = 0; k < i; k++)
-            if (!strcmp(from->stated[i].name, from->stated[k].name))
-                scene_fail(from->reader, from->stated[i].node, "%s: two materials are named \"%s\"",
-                           toml_node_name(from->stated[i].node), from->stated[i].name);
+    for (size_t i = 0; i < count; i++) {
+        const stated_material m = read_stated(from->reader, toml_node_at(list, i));
+        if (number_of(from, from->stated_numbers, m.name) == from->stated_count)
+            from->stated[from->stated_count++] = m;
+        else
+            scene_fail(from->reader, m.node, "%s: two materials are named \"%s\"",
+                       toml_node_name(m.node), m.name);
+    }
 }
 
 static void read_library(material_sources *from)
@@ -114,9 +129,9 @@ static void read_library(material_sources *from)
 
 static const stated_material *find_stated(const material_sources *from, const char *name)
 {
-    for (size_t i = 0; i < from->stated_count; i++)
-        if (!strcmp(from->stated[i].name, name)) return &from->stated[i];
-    return NULL;
+    const uint32_t number = number_of(from, from->stated_numbers, name);
+
+    return number < from->stated_count ? &from->stated[number] : NULL;
 }
 
 /* Numbers of materials that only the scene states follow the library's codes. */
@@ -266,7 +281,8 @@ static void fail_unknown(const material_sources *from, const char *name, const c
     spelling near = spelling_of(name);
     char hint[SPELLING_HINT_SIZE];
 
-    for (size_t i = 0; i < from->stated_count; i++) spelling_offer(&near, from->stated[i].name);
+    for (size_t i = 0; from->reader->failure_count < HINTS && i < from->stated_count; i++)
+        spelling_offer(&near, from->stated[i].name);
     if (from->library) material_offer_names(from->library, &near);
     scene_fail(from->reader, from->library_node,
                "%s: material \"%s\" is neither in the library nor a [[material]]%s", user, name,
@@ -295,9 +311,8 @@ static uint32_t use_material(const material_sources *from, const char *name, int
         return RECORD_NONE;
     }
     const char *own = known ? known->name : name;
-    for (uint32_t i = 0; i < s->material_count; i++)
-        if (!strcmp(s->materials[i].name, own)) return i;
-    return add_material(from, own, known, stated);
+    const uint32_t number = number_of(from, from->used_numbers, own);
+    return number == s->material_count ? add_material(from, own, known, stated) : number;
 }
 
 /* Rows of the emissivity table: of all materials, then of all their diffuse lobes. */
@@ -341,9 +356,15 @@ void scene_read_materials(scene_reader *reader, const char *ground_material)
 {
     material_sources from = {.reader = reader};
 
+    if (!scene_took(reader, name_table_open(&from.stated_numbers)) ||
+        !scene_took(reader, name_table_open(&from.used_numbers)))
+        goto out;
     read_library(&from);
     read_all_stated(&from);
     if (reader->s->shape) use_all(&from, ground_material);
+out:
+    name_table_free(from.used_numbers);
+    name_table_free(from.stated_numbers);
     material_library_free(from.library);
     free(from.library_folder);
     free(from.stated);

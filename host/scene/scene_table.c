@@ -274,6 +274,7 @@ static status add_input(scene *s, const char *folder, const char *name, const ch
     if (!s->input_numbers) TRY(name_table_open(&s->input_numbers));
     TRY(name_table_number(s->input_numbers, 0, input.path, &number));
     if (number == s->input_count) {
+        input.stamp = file_stamp_of(input.path);
         s->inputs[s->input_count++] = input;
         input = (scene_input){0};
     }

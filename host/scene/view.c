@@ -101,6 +101,8 @@ status view_write(const view *v, const char *path)
                  north = v->position_m[1] - v->target_m[1];
     const double up = v->position_m[2] - v->target_m[2];
 
+    NEED(!(v->width_m > 0.0), STATUS_ARGUMENT,
+         "%s: found an orthographic view, expected a perspective one", path);
     TRY(output_file_open(&file, path));
     fprintf(output_file_stream(file), "%.17g %.17g %.17g\n%.17g %.17g %.17g\n", v->target_m[1],
             -v->target_m[0], v->target_m[2], v->position_m[1], -v->position_m[0], v->position_m[2]);

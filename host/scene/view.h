@@ -34,7 +34,8 @@ bool view_fits(int columns, int rows);
  * and azimuth repeat what target and position say: more than .1 degree apart is a warning. */
 status view_read(view *out, const char *path);
 
-/* Writes an .adv file that view_read reads back, to the axes' exchange of sign. */
+/* Writes an .adv file that view_read reads back, to the axes' exchange of sign. Fails with STATUS_ARGUMENT
+ * if the view is orthographic, which the format does not know. */
 status view_write(const view *v, const char *path);
 
 /* Writes the [camera] table of a scene file, every number to its last digit. */

@@ -11,8 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LANES = 16 }; /* facets of a work-item */
-
 static status upload_forcing(thermal *t, const forcing_laws *laws, const weather *w,
                              const site *place)
 {
@@ -147,9 +145,11 @@ load_tables thermal_loads(const thermal *t, uint_buffer lit)
 device_shape thermal_shape(const thermal *t, size_t facet_count)
 {
     const double step_of_facet_s = t->layered ? 7e-7 : 5e-8;
+    const uint32_t at_once = device_describe(t->dev)->ray_lanes;
+    device_shape shape = device_ray_shape(t->dev, facet_count, 1);
 
-    return (device_shape){
-        {(facet_count + LANES - 1) / LANES, 1}, 4, LANES * step_of_facet_s * (double)t->step_count};
+    shape.item_s = at_once * step_of_facet_s * (double)t->step_count;
+    return shape;
 }
 
 status thermal_upload_layered(const thermal *t, const facet_record *facet, size_t count,

@@ -1,6 +1,5 @@
 #include "kernels/hemisphere/hemisphere.h"
 
-#define LANES_WIDTH RAY_LANES
 #include "kernels/hemisphere/hemisphere_lanes.h"
 
 /* Counts what the rays of points first .. first + LANES_WIDTH - 1 met.

@@ -1,7 +1,5 @@
 #include "kernels/rays/ray_packet.h"
 
-#define LANES_WIDTH RAY_LANES
-
 #include "kernels/hemisphere/hemisphere_beams.h"
 #include "kernels/hemisphere/hemisphere_packets.h"
 

@@ -1,6 +1,7 @@
 #include "kernels/radiance/gloss.h"
 #include "kernels/radiance/incident_faces.h"
 #include "kernels/radiance/sky_columns.h"
+#include "kernels/radiance/sky_pixel.h"
 
 /* Adds what a facet sends to every sample of a pixel. */
 static void add_facet(const incident_facet *seen, const incident_tables *t, global float *out)
@@ -90,7 +91,7 @@ static void add_gloss(const incident_tables *t, const hemisphere_tables *rays, c
  * hemisphere brings the facet that it met (its own temperature, emissivity at the ray's angle, sun
  * and what it sees itself) or the sky of its direction, and so does each ray of a specular share. Exact
  * counterpart of the background in eq. 2.4-1 and 2.4-2.
- * Launch: (frame.pixel_count / RAY_BUNDLE where RAY_LANES is 16, else / LANES_WIDTH, rounded up).
+ * Launch: (frame.pixel_count / RAY_BUNDLE where RAY_LANES is 16, rounded up, else frame.pixel_count).
  * dome: (DOME_ROWS, params.dome_count)
  * rays: of params.cell_count cells; of pixels, or of facets where params.is_of_facets
  * spectra: of the frame's samples, the knots
@@ -114,7 +115,7 @@ SHARED_BODY kernel void incident(const radiometry_record frame, const camera_rec
                                .dome = dome};
     sky_column column;
 
-    column.part.end = 0u;
+    sky_forget(&column);
     for (uint first = begin; first < end; first += LANES_WIDTH) {
         const incident_group g = incident_take_group(first, &t, &rays);
         clear_others(&g, &t, out);

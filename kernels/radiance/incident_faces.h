@@ -6,7 +6,7 @@
 #include "kernels/radiance/incident_rays.h"
 
 /* Places where a face may be found, a power of 2. */
-#define FACE_SLOTS 2048u
+#define FACE_SLOTS (RAY_LANES == 16 ? 2048u : 32u)
 
 /* A side of a facet, in the sun or not. */
 typedef struct incident_face {

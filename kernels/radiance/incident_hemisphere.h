@@ -16,9 +16,13 @@ typedef struct emitter_tables {
 /* A row of light for a block of the pixels' samples: LIGHT_BLOCK of them share a float. */
 static inline spectrum light_at(global const float *row, uint block)
 {
+#if SPECTRUM_WIDTH == 16
     const float4 four = vload4(block, row);
 
     return (spectrum)((float4)four.x, (float4)four.y, (float4)four.z, (float4)four.w);
+#else
+    return (spectrum)row[block * SPECTRUM_WIDTH / LIGHT_BLOCK];
+#endif
 }
 
 /* Light of a facet for a block of the pixels' samples. */

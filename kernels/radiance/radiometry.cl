@@ -242,20 +242,22 @@ static pixel_state pixel_look(radiometry_record frame, const air_record *air, ca
     return state;
 }
 
-/* Blocks of a pixel that are computed before those of the next one, whose rows lie apart. */
-#define BLOCKS_TOGETHER 8u
+/* Pixels of a work-item, and blocks of one that are computed before those of the next, whose rows lie
+ * apart. */
+#define PIXELS (RAY_LANES == 16 ? PIXEL_GROUP : 1u)
+#define BLOCKS_TOGETHER (RAY_LANES == 16 ? 8u : 1u)
 
-/* Some blocks of the spectra of a group. */
-typedef struct group_terms {
-    spectrum of[SENSOR_TERMS][BLOCKS_TOGETHER][PIXEL_GROUP];
-} group_terms;
+/* Some blocks of the spectra of these pixels. */
+typedef struct some_terms {
+    spectrum of[SENSOR_TERMS][BLOCKS_TOGETHER][PIXELS];
+} some_terms;
 
 /* Writes a block of one spectrum, sample by sample.
- *   of_pixel   shape (PIXEL_GROUP)
- *   out        shape (sample_count, PIXEL_GROUP) */
+ *   of_pixel   shape (PIXELS)
+ *   out        of the first of the pixels, shape (sample_count, PIXEL_GROUP) */
 static void store_block(const spectrum *of_pixel, uint block, global float *out)
 {
-#if SPECTRUM_WIDTH == 16
+#if RAY_LANES == 16 && SPECTRUM_WIDTH == 16
     spectrum of_sample[SPECTRUM_WIDTH];
 
     spectrum_turn(of_pixel, of_sample);
@@ -263,13 +265,16 @@ static void store_block(const spectrum *of_pixel, uint block, global float *out)
     for (uint k = 0; k < SPECTRUM_WIDTH; k++)
         vstore16(of_sample[k], block * SPECTRUM_WIDTH + k, out);
 #else
-    for (uint i = 0; i < PIXEL_GROUP; i++) out[(size_t)block * PIXEL_GROUP + i] = of_pixel[i];
+    for (uint i = 0; i < PIXELS; i++)
+        for (uint k = 0; k < SPECTRUM_WIDTH; k++)
+            out[(size_t)(block * SPECTRUM_WIDTH + k) * PIXEL_GROUP + i] =
+                ((const float *)&of_pixel[i])[k];
 #endif
 }
 
 /* Writes `count` blocks, from `first` on.
- *   out   shape (term_count, sample_count, PIXEL_GROUP) */
-static void store_terms(const group_terms *terms, uint term_count, uint first, uint count,
+ *   out   of the first of the pixels, shape (term_count, sample_count, PIXEL_GROUP) */
+static void store_terms(const some_terms *terms, uint term_count, uint first, uint count,
                         uint sample_count, global float *out)
 {
     for (uint k = 0; k < term_count; k++)
@@ -277,8 +282,17 @@ static void store_terms(const group_terms *terms, uint term_count, uint first, u
             store_block(terms->of[k][b], first + b, out + (size_t)k * sample_count * PIXEL_GROUP);
 }
 
+/* Sets the terms of pixels past the end. */
+static void clear_terms(some_terms *terms, uint count)
+{
+    for (uint k = 0; k < SENSOR_TERMS * BLOCKS_TOGETHER; k++)
+        for (uint i = count; i < PIXELS; i++)
+            terms->of[k / BLOCKS_TOGETHER][k % BLOCKS_TOGETHER][i] = (spectrum)0.0f;
+}
+
 /* Spectra of what reaches the sensor, eq. 2.4-1 and 2.4-2, of groups of neighbouring pixels.
- * Launch: (groups of PIXEL_GROUP pixels), from frame.first_group on.
+ * Launch: (groups of PIXEL_GROUP pixels; one pixel of these where RAY_LANES is 1), from frame.first_group
+ * on.
  * emissivities: shape (pixel_count, 2): of the target and of its background, rows of `emissivity`
  * terms: shape (groups launched, band_plane_terms, sample_count, PIXEL_GROUP), W m-2 sr-1 um-1: what
  *   the radiance is the sum of where that is wanted (emitted by the target, reflected of the sun,
@@ -288,27 +302,24 @@ kernel void radiometry(const radiometry_record frame, const air_record air,
                        TABLES(SPECTRA_TABLES), global emissivity_record *emissivities,
                        global float *terms)
 {
-    const uint group = get_global_id(0), first = (frame.first_group + group) * PIXEL_GROUP;
-    if (first >= frame.pixel_count) return;
+    const uint first = frame.first_group * PIXEL_GROUP + get_global_id(0) * PIXELS;
+    if (first >= band_plane_row(frame.pixel_count)) return;
 
-    const uint count = min(PIXEL_GROUP, frame.pixel_count - first);
+    const uint count = first < frame.pixel_count ? min(PIXELS, frame.pixel_count - first) : 0u;
     const uint term_count = band_plane_terms(frame.wants), row = frame.sample_count;
-    const uint blocks = row / SPECTRUM_WIDTH;
+    const uint blocks = row / SPECTRUM_WIDTH, group = first / PIXEL_GROUP - frame.first_group;
     const surface_tables surfaces = TABLES_GIVEN(SURFACE_TABLES);
     const pixel_tables pixels = TABLES_GIVEN(PIXEL_TABLES);
     pixel_spectra tables = {.of = TABLES_GIVEN(SPECTRA_TABLES)};
-    pixel_state state[PIXEL_GROUP];
-    group_terms own;
+    pixel_state state[PIXELS];
+    some_terms own;
 
     for (uint i = 0; i < count; i++) {
-        const uint pixel = first + i;
-        state[i] = pixel_look(frame, &air, camera, &surfaces, &pixels, pixel);
-        store_emissivities(&state[i], emissivities + 2u * pixel);
+        state[i] = pixel_look(frame, &air, camera, &surfaces, &pixels, first + i);
+        store_emissivities(&state[i], emissivities + 2u * (first + i));
     }
-    for (uint k = 0; k < SENSOR_TERMS * BLOCKS_TOGETHER; k++)
-        for (uint i = count; i < PIXEL_GROUP; i++)
-            own.of[k / BLOCKS_TOGETHER][k % BLOCKS_TOGETHER][i] = (spectrum)0.0f;
-    terms += (size_t)group * term_count * row * PIXEL_GROUP;
+    clear_terms(&own, count);
+    terms += (size_t)group * term_count * row * PIXEL_GROUP + first % PIXEL_GROUP;
     for (uint block = 0; block < blocks; block += BLOCKS_TOGETHER) {
         const uint together = min(BLOCKS_TOGETHER, blocks - block);
         for (uint i = 0; i < count; i++) {

@@ -7,6 +7,8 @@
 
 #include "kernels/radiance/incident_group.h"
 
+#if RAY_LANES == 16
+
 /* Cells of a part, in whole vectors. */
 #define SKY_CELLS ((ROUND + LANES_WIDTH - 1u) / LANES_WIDTH * LANES_WIDTH)
 
@@ -373,6 +375,12 @@ static inline void sky_turn(sky_column *column, uint lanes, const sky_odd_cells 
     sky_mark_odd(column, odd);
 }
 
+/* Forgets the column of the group before. */
+static inline void sky_forget(sky_column *column)
+{
+    column->part.end = 0u;
+}
+
 /* Adds the sky that the lanes see.
  *   column   the last one of the group before
  *   out      of pixel 0 */
@@ -387,5 +395,7 @@ static inline void sky_add(sky_column *column, const incident_group *g, const in
         sky_add_column(column, &odd, g, t, out);
     }
 }
+
+#endif
 
 #endif

@@ -9,10 +9,6 @@
 
 #include "kernels/rays/ray.h"
 
-#ifndef RAY_LANES
-#define RAY_LANES 1
-#endif
-
 /* Groups of RAY_LANES points of a work-item that looks at several. */
 #define RAY_GROUPS (RAY_LANES == 16 ? RAY_BUNDLE / 16 : 1)
 

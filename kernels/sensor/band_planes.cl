@@ -1,11 +1,15 @@
 #include "kernels/band_plane.h"
 #include "kernels/sensor/band_temperature.h"
 
-/* What the planes of one group of pixels are made from. */
+/* Lanes from one sample of a group of pixels to the next. */
+#define PIXEL_STEP (PIXEL_GROUP / LANES_WIDTH)
+
+/* What the planes of LANES_WIDTH neighbouring pixels are made from. */
 typedef struct band_source {
     global const band_record *band;
     global const float *weights; /* of the band */
-    global const float *terms;   /* shape (band_plane_terms, sample_count, PIXEL_GROUP) */
+    global const lanes
+        *terms; /* of the lanes, shape (band_plane_terms, sample_count) by PIXEL_STEP */
     uint sample_count;
     global const float *emissivity; /* of the band, one every band_count */
     uint band_count;
@@ -20,14 +24,14 @@ static lanes integrate(const band_source *from, uint term)
 {
     const uint count = from->band->sample_count;
     const size_t first = (size_t)term * from->sample_count + from->band->first_sample;
-    global const lanes *sample = (global const lanes *)from->terms + first;
+    global const lanes *sample = from->terms + first * PIXEL_STEP;
     global const float *weight = from->weights;
     lanes sum = (lanes)0.0f;
 
     for (uint i = 0; i < count;) {
         const uint end = min(i + SPECTRA_BLOCK, count);
         lanes some = (lanes)0.0f;
-        for (; i < end; i++) some = fma((lanes)weight[i], sample[i], some);
+        for (; i < end; i++) some = fma((lanes)weight[i], sample[i * PIXEL_STEP], some);
         sum += some;
     }
     return sum;
@@ -80,7 +84,7 @@ static void write_past(const lanes values, global lanes *out)
 }
 
 /* Planes of the bands from the spectra of groups of neighbouring pixels, eq. 2.4-3.
- * Launch: (groups of PIXEL_GROUP pixels), from frame.first_group on.
+ * Launch: (groups of PIXEL_GROUP pixels; one pixel of these where LANES_WIDTH is 1), from frame.first_group on.
  * bands: band_record; weights: of each its samples', um
  * band_emissivity: shape (rows, band_count), see band_emissivity.cl
  * ln_radiance: shape (band_count, BAND_TEMPERATURES)
@@ -94,18 +98,22 @@ kernel void band_planes(const radiometry_record frame, global const band_record 
                         global const emissivity_record *emissivities, global const float *terms,
                         global float *planes)
 {
-    const uint group = get_global_id(0), first = (frame.first_group + group) * PIXEL_GROUP;
+    const uint first = frame.first_group * PIXEL_GROUP + get_global_id(0) * LANES_WIDTH;
     if (first >= frame.pixel_count) return;
 
     const uint term_count = band_plane_terms(frame.wants);
-    const uint row = band_plane_row(frame.pixel_count) / PIXEL_GROUP;
+    const uint row = band_plane_row(frame.pixel_count) / LANES_WIDTH;
+    const uint group = first / PIXEL_GROUP - frame.first_group;
     band_source from = {.sample_count = frame.sample_count,
                         .band_count = frame.band_count,
                         .emissivities = emissivities + 2u * first,
-                        .count = min(PIXEL_GROUP, frame.pixel_count - first)};
-    global lanes *out = (global lanes *)planes + first / PIXEL_GROUP;
+                        .count = min((uint)LANES_WIDTH, frame.pixel_count - first)};
+    global lanes *out = (global lanes *)planes + first / LANES_WIDTH;
 
-    from.terms = terms + (size_t)group * term_count * frame.sample_count * PIXEL_GROUP;
+    from.terms =
+        (global const lanes *)(terms +
+                               (size_t)group * term_count * frame.sample_count * PIXEL_GROUP +
+                               first % PIXEL_GROUP);
     for (uint b = 0; b < frame.band_count; b++) {
         from.band = bands + b;
         from.weights = weights + bands[b].first_weight;

@@ -1,6 +1,5 @@
 #include "kernels/rays/ray_beam.h"
 
-#define LANES_WIDTH RAY_LANES
 #include "kernels/lanes.h"
 #include "kernels/sunlight/sun_history.h"
 #include "kernels/tables.h"

@@ -9,13 +9,12 @@ import types
 
 import numpy as np
 import pytest
+import envi
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 RADSIG = ROOT / os.environ.get("RADSIG", "build/radsig")
 AIRPORT = ROOT / "scenes" / "airport"
-
-import envi
 
 VACUUM = {"sky_temperature_k": 1.0, "sky_radiance_w_m2_sr_um": 0.0, "sun_irradiance_w_m2_um": 0.0,
           "transmission": 1.0, "path_temperature_k": 1.0}

@@ -1,4 +1,5 @@
 """radsig check on scenes that are wrong in one place each: the message names file and line."""
+import resource
 import shutil
 
 import numpy as np
@@ -173,6 +174,24 @@ def test_a_missing_thickness_is_told_once_a_material(program, folder, count):
     done = check(program, folder, text)
 
     assert done.returncode == 1 and done.stderr.count("has no temperature") == count
+
+
+def test_twenty_thousand_materials_and_geometries_are_read_within_seconds(program, folder):
+    """Comparing each name with all others took 8 s of materials, and 3 s of geometries."""
+    names = [f"m{i}" for i in range(20000)]
+    vertices = "v -50 -50 0\nv 50 -50 0\nv 50 50 0\n"
+    (folder / "many.obj").write_text(vertices + "".join(f"usemtl {n}\nf 1 2 3\n" for n in names))
+    materials = "".join(f'[[material]]\nname = "{n}"\nemissivity = 0.9\ntemperature_k = 300\n'
+                        for n in names)
+    again = ["".join(".//" if i >> bit & 1 else "./" for bit in range(15)) for i in range(20000)]
+    geometries = "".join(f'[[geometry]]\nfile = "{place}plane.obj"\n' for place in again)
+    text = GOOD.replace("plane.obj", "many.obj") + materials + geometries
+    before_s = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+
+    done = check(program, folder, text)
+
+    assert done.returncode == 0, done.stderr
+    assert resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before_s < 5
 
 
 @pytest.mark.parametrize("face, words", [("f 1 2 3 5", "bad.obj:6: "), ("f 1 2 x", "bad.obj:6: "),

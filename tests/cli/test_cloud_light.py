@@ -1,5 +1,4 @@
 """Clouds that scatter, seen from both sides and by the ground below them, against two streams in numpy."""
-import pathlib
 
 import numpy as np
 import pytest

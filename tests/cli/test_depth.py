@@ -1,5 +1,4 @@
 """Exact mode: light that goes from facet to facet, against its series at every depth."""
-import pathlib
 
 import numpy as np
 import pytest

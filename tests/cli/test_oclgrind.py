@@ -6,11 +6,10 @@ import subprocess
 
 import numpy as np
 import pytest
+import cases
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RADSIG = ROOT / os.environ.get("RADSIG", "build/radsig")
-
-import cases
 
 pytestmark = pytest.mark.skipif(not shutil.which("oclgrind"), reason="needs the package oclgrind")
 

@@ -302,12 +302,15 @@ def small_disk(tmp_path):
     subprocess.run(["umount", disk], check=True)
 
 
-def test_a_full_disk_leaves_the_old_output_in_place(program, made, small_disk):
+# Too large from the start; and images that fit with pictures that do not.
+@pytest.mark.parametrize("options", [["--size", "200x200"],
+                                     ["--size", "130x130", "--planes", "range_m"]])
+def test_a_full_disk_leaves_the_old_output_in_place(program, made, small_disk, options):
     assert program.run("render", made.scene, "-o", small_disk / "out", "--planes",
                        "range_m").returncode == 0
     before = contents(small_disk / "out")
 
-    done = program.run("render", made.scene, "-o", small_disk / "out", "--size", "200x200")
+    done = program.run("render", made.scene, "-o", small_disk / "out", *options)
 
     assert done.returncode == 1 and "No space left" in done.stderr
     assert contents(small_disk / "out") == before

@@ -3,9 +3,9 @@ import math
 import pathlib
 
 import pytest
+import table_d1
 
 HERE = pathlib.Path(__file__).resolve().parent
-import table_d1
 
 JUNE = HERE / "clear_june_1992.wth"
 PLACE = ["--site", "43.083,-77.667", "--date", "1992-06-23", "--utc-offset", "-4"]

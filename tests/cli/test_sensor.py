@@ -1,5 +1,4 @@
 """[sensor]: the degraded radiance beside the clean one, against closed forms."""
-import pathlib
 import re
 
 import numpy as np

@@ -5,11 +5,10 @@ import subprocess
 import numpy as np
 import pytest
 from test_trace import write
+import cases
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RADSIG = ROOT / os.environ.get("RADSIG", "build/radsig")
-
-import cases
 
 LEVEL = ("--normal", "0,0,1")
 

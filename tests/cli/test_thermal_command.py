@@ -6,13 +6,12 @@ import pathlib
 import subprocess
 
 import pytest
+import table_d1
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RADSIG = ROOT / os.environ.get("RADSIG", "build/radsig")
 HISTORY = pathlib.Path(__file__).with_name("clear_june_1992.wth")
 PLACE = {"site": "43.083,-77.667", "date": "1992-06-23", "utc-offset": "-4"}
-
-import table_d1
 
 ROWS = {row.name: row for row in table_d1.ROWS}
 

@@ -4,11 +4,10 @@ import subprocess
 
 import numpy as np
 import pytest
+import cases
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RADSIG = ROOT / os.environ.get("RADSIG", "build/radsig")
-
-import cases
 
 ANSWER = np.dtype([("t_m", "<f4"), ("facet", "<i4")])
 

@@ -1,14 +1,14 @@
 """The tree that kernels trace, built by host/tree/bvh.c itself."""
 import ctypes
 import pathlib
+import re
 import subprocess
 import tempfile
 
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SOURCES = ["tree/bvh.c", "tree/bvh_binary.c", "tree/bvh_wide.c", "mesh/corner_tree.c", "mesh/polygon.c",
-           "base/interrupt.c", "base/status.c"]
+HOST = ROOT / "host"
 
 
 class Source(ctypes.Structure):
@@ -23,11 +23,21 @@ class Tables(ctypes.Structure):
     _fields_ += [("low", ctypes.c_float * 3), ("high", ctypes.c_float * 3)]
 
 
+def _sources(path, found):
+    """A file of C, and those that have what its headers declare."""
+    if path.is_file() and path not in found:
+        found.add(path)
+        for file in (path, path.with_suffix(".h")):
+            for name in re.findall(r'#include "([^"]+)\.h"', file.read_text()):
+                _sources(HOST / f"{name}.c", found)
+    return found
+
+
 def _load():
     with tempfile.TemporaryDirectory() as folder:
         library = f"{folder}/bvh.so"
-        sources = [str(ROOT / "host" / name) for name in SOURCES]
-        flags = ["-std=c11", "-D_GNU_SOURCE", "-O2", "-shared", "-fPIC", f"-I{ROOT}", f"-I{ROOT / 'host'}"]
+        sources = map(str, _sources(HOST / "tree/bvh.c", set()))
+        flags = ["-std=c11", "-D_GNU_SOURCE", "-O2", "-shared", "-fPIC", f"-I{ROOT}", f"-I{HOST}"]
         subprocess.run(["cc", *flags, "-o", library, *sources, "-lm"], check=True)
         bvh = ctypes.CDLL(library)
     bvh.bvh_look.restype = ctypes.POINTER(Tables)

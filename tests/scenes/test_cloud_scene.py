@@ -6,11 +6,10 @@ import sys
 
 import numpy as np
 import pytest
+import envi
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CLOUD = ROOT / "scenes" / "cloud"
-
-import envi
 
 
 @pytest.fixture(scope="module")

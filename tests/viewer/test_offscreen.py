@@ -1,6 +1,10 @@
 """The preview without a display: what its picture shows, and what its controls do."""
+import ctypes
+import os
+import signal
 import struct
 import subprocess
+import time
 import tomllib
 
 import numpy as np
@@ -208,6 +212,75 @@ def test_a_change_of_a_file_is_seen_and_a_broken_one_keeps_the_view(preview, sce
     assert changed != first
     assert broken == changed
     assert again == first
+
+
+def openings_of(path):
+    """A descriptor from which can be read once a process has opened the file (inotify)."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    watch = libc.inotify_init()
+    assert libc.inotify_add_watch(watch, os.fsencode(path), 0x20) >= 0  # IN_OPEN
+    return watch
+
+
+def test_an_edit_while_the_scene_opens_is_noticed(preview, scene, tmp_path):
+    # meshes are read after the scene file
+    (tmp_path / "late.obj").write_text("usemtl tin\nv 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n")
+    text = scene.read_text() + '[[geometry]]\nfile = "late.obj"\n'
+    scene.write_text(text)
+    watch = openings_of(tmp_path / "late.obj")
+    talk = Conversation(preview, scene, tmp_path)
+    os.read(watch, 4096)
+
+    scene.write_text(text.replace("320.0", "340.0"))
+    os.close(watch)
+    assert talk.ask_for_error("wait", "pause 1.5", "wait", "image a.img") == ""
+    assert talk.end() == 0
+
+    assert (tmp_path / "a.img").read_bytes() == preview.render(scene, tmp_path / "out")
+
+
+def test_an_orthographic_view_is_saved_as_a_table_alone_and_read_again(preview, scene, tmp_path):
+    camera = {**preview.scene["camera"], "projection": "orthographic", "width_m": 60.0,
+              "focal_length_mm": None}
+    preview.write_scene(tmp_path, **{**preview.scene, "camera": camera})
+    preview.view(scene, tmp_path, "key a", "wait", "image a.img", "key o")
+
+    assert not (tmp_path / "plane-view-1.adv").exists()
+    saved = tomllib.loads((tmp_path / "plane-view-1.toml").read_text())["camera"]
+    assert saved["projection"] == "orthographic"
+    preview.write_scene(tmp_path, **{**preview.scene, "camera": {**saved, "focal_length_mm": None}})
+    assert (tmp_path / "a.img").read_bytes() == preview.render(scene, tmp_path / "out")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_ends_the_preview_soon_whatever_it_is_at(preview, airport, tmp_path, number):
+    for wait_s in (0.2, 2.0, 5.0):  # reading the scene, building the tree, temperatures
+        process = subprocess.Popen(
+            [preview.radsig, "view", airport, "--offscreen", tmp_path / "a.img"], cwd=tmp_path,
+            env=preview.environment(), stderr=subprocess.PIPE, text=True)
+        time.sleep(wait_s)
+        process.send_signal(number)
+        begin = time.monotonic()
+        message = process.communicate(timeout=60)[1]
+
+        assert process.returncode == 130 and message.endswith("radsig view: interrupted\n")
+        assert time.monotonic() - begin < 2.0  # half a second, and other work on CI's processors
+        assert not list(tmp_path.iterdir())
+
+
+def test_quitting_while_the_scene_opens_does_not_wait_for_it(preview, airport, tmp_path):
+    text = airport.read_text().replace('thermal = "therm"', 'thermal = "layered"')
+    for name in ("airport.gdb", "june24_1500z.rad", "../library/materials.mat"):
+        text = text.replace(f'"{name}"', f'"{(airport.parent / name).resolve()}"')
+    (tmp_path / "scene.toml").write_text(text)
+    talk = Conversation(preview, tmp_path / "scene.toml", tmp_path)
+    talk.ask_for_error("pause 2")
+    begin = time.monotonic()
+    talk.program.stdin.write("key q\n")
+    talk.program.stdin.flush()
+
+    talk.program.wait(60)
+    assert time.monotonic() - begin < 2.0
 
 
 def test_an_unknown_plane_is_refused_by_name(preview, scene, tmp_path):

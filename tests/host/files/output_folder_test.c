@@ -3,6 +3,7 @@
 
 #include "../refused_call.h"
 #include "../scratch_folder.h"
+#include "../skip.h"
 
 #include <stdbool.h>
 #include <sys/inotify.h>
@@ -118,7 +119,7 @@ static void a_folder_without_permission_is_refused_with_its_path(void **state)
     output_folder *folder = NULL;
     (void)state;
 
-    if (geteuid() == 0) skip(); /* root may write anywhere */
+    SKIP_IF(geteuid() == 0, "root may write anywhere");
     assert_int_equal(mkdir(scratch_path("locked"), 0500), 0);
 
     assert_int_equal(output_folder_open(&folder, scratch_path("locked")), STATUS_FILE);

@@ -73,6 +73,28 @@ static void labels_have_the_digits_of_their_step(void **state)
     assert_label(2e9, 1e9, "2e+09");
 }
 
+static void ticks_are_the_multiples_of_the_step_in_the_range(void **state)
+{
+    const value_range range = {.min = -0.5, .max = 1.0};
+    double tick[VALUE_RANGE_TICKS];
+    (void)state;
+
+    assert_int_equal(value_range_ticks(&range, 0.5, tick), 4);
+    for (int i = 0; i < 4; i++) assert_true(tick[i] == -0.5 + 0.5 * i);
+}
+
+/* Above 2^53 the next multiple of 1 may be the same double. */
+static void ticks_end_where_numbers_are_too_coarse_for_the_step(void **state)
+{
+    const value_range coarse = {.min = 9007199254740992.0, .max = 9007199254740994.0};
+    const value_range point = {.min = 3.0, .max = 3.0};
+    double tick[VALUE_RANGE_TICKS];
+    (void)state;
+
+    assert_in_range(value_range_ticks(&coarse, 0.2, tick), 1, VALUE_RANGE_TICKS);
+    assert_in_range(value_range_ticks(&point, 0.0, tick), 0, VALUE_RANGE_TICKS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -81,6 +103,8 @@ int main(void)
         cmocka_unit_test(a_constant_plane_lies_in_the_middle_of_its_range),
         cmocka_unit_test(steps_are_one_two_five_times_a_power_of_ten),
         cmocka_unit_test(labels_have_the_digits_of_their_step),
+        cmocka_unit_test(ticks_are_the_multiples_of_the_step_in_the_range),
+        cmocka_unit_test(ticks_end_where_numbers_are_too_coarse_for_the_step),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,8 @@
 /* Images as they are written: exact values, names, the same bytes twice, and failing writes. */
 #include "meshio/image_file.h"
 
+#include "../skip.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -158,7 +160,7 @@ static void a_full_disk_is_told(void **state)
 {
     (void)state;
 
-    if (access("/dev/full", W_OK)) skip();
+    SKIP_IF(access("/dev/full", W_OK), "there is no /dev/full");
     assert_int_not_equal(write_into("/dev/full", &dated, channel, 2, IMAGE_NONE), 0);
     assert_string_equal(message, "/dev/full: No space left on device");
     assert_int_not_equal(write_into("/dev/full", &dated, NULL, 0, IMAGE_NONE), 0);

@@ -1,4 +1,5 @@
 #include "../scratch_folder.h"
+#include "../skip.h"
 
 #include <fcntl.h>
 #include <math.h>
@@ -233,6 +234,9 @@ static void several_processes_at_once_end_with_one_whole_file(void **state)
 {
     (void)state;
     enum { PROCESSES = 4 };
+#ifdef __SANITIZE_THREAD__
+    SKIP_IF(true, "ThreadSanitizer cannot follow processes that fork from threads");
+#endif
     const bvh_source source = terrain();
     pid_t process[PROCESSES];
 

@@ -1,5 +1,4 @@
 """Lengths inside transmissive bodies, against closed forms of chords."""
-import pathlib
 
 import numpy as np
 import probe

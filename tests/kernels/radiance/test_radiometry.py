@@ -10,8 +10,9 @@ from radiometry_reference import Case, Reference, planck
 from records import DIFFUSE, MISSED, SPECULAR_BACKGROUND, SPECULAR_SKY
 
 COUNT = 400
-# The widths of a block of samples: 16 for speed, 1 as the scalar twin.
-WIDTHS = ["", "-DSPECTRUM_WIDTH=1"]
+# 16 pixels a work-item and 16 samples at once, as on CPUs; single samples, the scalar twin; a pixel alone,
+# as on GPUs.
+WIDTHS = ["", "-DSPECTRUM_WIDTH=1", "-DRAY_LANES=1"]
 # float32: Planck's exponent of up to 60 at .8 um costs 60 roundings of 6e-8, angles from acos near 1
 # err by .02 degree, where the tables change by less than .001 of the whole.
 BOUND = 2e-5
@@ -47,12 +48,13 @@ def run(opencl, case, options="", groups=None):
              "terms": np.zeros((7, row, len(case.weight)), np.float32)}
     planes = np.zeros((len(case.bands), bin(wants).count("1"), row), np.float32)
     frame = case.frame.copy()
+    is_alone = options == "-DRAY_LANES=1"
     for first in range(0, all_groups, groups or all_groups):
         frame["first_group"] = first
-        size = (min(groups or all_groups, all_groups - first),)
+        size = (min(groups or all_groups, all_groups - first) * (records.PIXEL_GROUP if is_alone else 1),)
         opencl.run("radiometry", size, options=options, frame=frame, air=case.air, camera=case.camera,
                    **case.tables(), **terms)
-        opencl.run("band_planes", size, frame=frame, bands=case.bands, weights=case.weights,
+        opencl.run("band_planes", size, options=options if is_alone else "", frame=frame, bands=case.bands, weights=case.weights,
                    band_emissivity=emissivity, ln_radiance=ln_radiance, planes=planes, **terms)
     return planes[..., :pixels]
 

@@ -9,8 +9,8 @@ COUNT, PLACES = 20, 32
 THICK_M, AREA_M2, H = 1e-4, 0.02**2, 10.0
 
 
-@pytest.fixture(scope="module")
-def conduct(opencl):
+@pytest.fixture(scope="module", params=[16, 1])
+def conduct(opencl, request):
     """Heat along facets, W m-2, shape (2 steps, places), of one patch."""
     def run(facets, links, forcing, lit=None, step_s=900.0):
         span = np.zeros(1, records.SPAN)
@@ -22,7 +22,7 @@ def conduct(opencl):
                  "progress": np.zeros(1, records.CONDUCTION_PROGRESS)}
         out = np.zeros((2 * len(forcing), PLACES), np.float32)
         while not patch["progress"]["is_done"][0]:
-            opencl.run("conduction", (1,), span=span, patch_count=1, facets=facets,
+            opencl.run("conduction", (1,), options=f"-DRAY_LANES={request.param}", span=span, patch_count=1, facets=facets,
                        load={"forcing": forcing, "sunlit": lit, "power_materials": 0},
                        exchange={"lateral_columns": 0, "received_columns": 0}, patch=patch,
                        out_w_m2=out)
