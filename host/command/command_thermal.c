@@ -87,14 +87,11 @@ static int read_arguments(int argc, char **argv, thermal_request *out)
         command_wind_height_option(&out->laws),
         {"diffuse", 0, "LAW", "isotropic (the default) or hay-davies", .index = &out->laws.diffuse,
          .word = forcing_diffuse_names, .word_count = FORCING_DIFFUSES},
-        {"plot", 0, "FILE.png",
-         "draw the temperatures and the air's, or the standard deviations over the hours",
-         .text = &out->plot},
+        {"plot", 0, "FILE.png", "draw temperatures, or standard deviations", .text = &out->plot},
         {"sensitivity", 0, NULL, "study the inputs, see above", .flag = &out->is_sensitivity},
         {"objects", 0, "FILE.csv",
-         "what is studied: a table with the header "
-         "material,thickness_cm,slope_deg,azimuth_deg,power_w_m2; without it --material, or every "
-         "material of the list, as the options above say",
+         "what is studied, instead of --material: a table with the header "
+         "material,thickness_cm,slope_deg,azimuth_deg,power_w_m2",
          .text = &out->objects},
         {"runs", 0, "N", "of each input (default 100)", .whole = &out->runs, .low = 1, .high = 1e6},
         {"seed", 0, "N", "of the random numbers (default 1)", .whole = &out->seed, .low = 0,

@@ -151,10 +151,10 @@ def test_weather_of_a_far_place_is_warned_about_by_its_name(program, tmp_path, n
 
 
 @pytest.mark.parametrize("old, new, message", [
-    ("LOCATION,Rochester,NY", "LOCATION,Rochester", "year.epw:1: 'LOCATION,Rochester,USA"),
+    ("LOCATION,Rochester,NY", "LOCATION,Rochester", "year.epw:1: found 'LOCATION,Rochester,USA"),
     ("-5.0,169.0", "west,169.0", "year.epw:1:"),
     ("DATA PERIODS,1,1", "DATA PERIODS,1,4", "one record an hour"),
-    ("1992,6,22,3,60", "1992,13,22,3,60", "year.epw:35: '1992,13,22,3,60"),
+    ("1992,6,22,3,60", "1992,13,22,3,60", "year.epw:35: found '1992,13,22,3,60"),
     ("1992,6,22,3,60", "1992,6,22,25,60", "an hour from 1 to 24, not '25'"),
     ("1992,6,22,3,60", "1992,2,30,3,60", "a day of the month from 1 to 29, not '30'"),
     ("1992,6,22,3,60", "1992,6,31,3,60", "a day of the month from 1 to 30, not '31'"),
