@@ -7,8 +7,9 @@
 
 /* On the wavenumbers of extinction. */
 typedef struct scattering {
-    double albedo[EXTINCTION_WAVENUMBERS];    /* single-scattering albedo, 0..1 */
-    double asymmetry[EXTINCTION_WAVENUMBERS]; /* mean cosine of the angle of scattering, 0 to 0.99 */
+    double albedo[EXTINCTION_WAVENUMBERS]; /* single-scattering albedo, 0..1 */
+    double
+        asymmetry[EXTINCTION_WAVENUMBERS]; /* mean cosine of the angle of scattering, 0 to 0.99 */
 } scattering;
 
 /* Reads a .scattering.csv: leading '#' lines, a line that names the columns, then 396 rows of

@@ -16,10 +16,10 @@ typedef enum forcing_sky { FORCING_BRUNT, FORCING_BERDAHL_MARTIN, FORCING_BRUTSA
 
 /* Heat that air takes, W m-2 K-1, at a wind of V m/s. */
 typedef enum forcing_convection {
-    FORCING_BY_MODEL,  /* THERM's, of layered facets McAdams' */
-    FORCING_THERM,     /* 9 + 1.2 V */
-    FORCING_MCADAMS,   /* 5.7 + 3.8 V: McAdams 1954 */
-    FORCING_TARP,      /* 3.86 sqrt(V), as of a medium rough plate of 4 m x 4 m (assumed), and what
+    FORCING_BY_MODEL, /* THERM's, of layered facets McAdams' */
+    FORCING_THERM,    /* 9 + 1.2 V */
+    FORCING_MCADAMS,  /* 5.7 + 3.8 V: McAdams 1954 */
+    FORCING_TARP,     /* 3.86 sqrt(V), as of a medium rough plate of 4 m x 4 m (assumed), and what
                          rises by itself: kernels/thermal/convection.h */
     FORCING_SIMILARITY /* over a roughness length; V at least 0.1 m/s: kernels/thermal/convection.h */
 } forcing_convection;

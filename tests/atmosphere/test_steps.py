@@ -107,7 +107,7 @@ def test_a_text_file_has_no_place_for_them(make):
 
 @pytest.mark.parametrize("old, new, expected", [
     (b'"range_count": 1', b'"range_count": 9', "bytes of numbers"),
-    (b'"range_count": 1', b'"range_count": 0', "range_count is 0"),
+    (b'"range_count": 1', b'"range_count": 0', "range_count: found 0"),
     (b'"target_count": 1', b'"target_count": 2', "bytes of numbers"),
 ])
 def test_a_container_whose_counts_do_not_fit_is_explained(make, atmosphere, old, new, expected):

@@ -47,7 +47,8 @@ static void at_the_june_solstice_noon_is_the_obliquity_from_the_latitude(void **
 static void at_the_equinox_the_sun_is_on_the_horizon_of_the_pole(void **state)
 {
     (void)state;
-    assert_near(zenith_deg(march_equinox_s, 90, 0), 90, 0.012); /* 0.01 and the parallax of 0.0024 */
+    assert_near(zenith_deg(march_equinox_s, 90, 0), 90,
+                0.012); /* 0.01 and the parallax of 0.0024 */
 }
 
 static void a_solstice_day_is_symmetric_about_noon(void **state)
