@@ -150,5 +150,6 @@ status render_summary_write(output_folder *folder, const char *name, const rende
 out:
     free(l.bands);
     free(l.planes);
+    free(l.inputs);
     return rc;
 }
