@@ -227,15 +227,15 @@ static void the_first_22_categories_differ(void **state)
 /* Of 48 MB of pixels a strip of 4 MiB is held; the values are zero pages, which need no memory. */
 static void memory_does_not_grow_with_the_picture(void **state)
 {
+    (void)state;
+#ifdef __SANITIZE_ADDRESS__
+    SKIP_IF(true, "AddressSanitizer keeps what was freed");
+#endif
     const uint32_t columns = 2000, rows = 8000;
     float *value = calloc((size_t)columns * rows, sizeof *value);
     const quick_look small = look_of(value, 300, 300), large = look_of(value, columns, rows);
     struct rusage before, after;
-    (void)state;
 
-#ifdef __SANITIZE_ADDRESS__
-    SKIP_IF(true, "AddressSanitizer keeps what was freed");
-#endif
     assert_non_null(value);
     write_look("small.png", &small);
     getrusage(RUSAGE_SELF, &before);
