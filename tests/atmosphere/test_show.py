@@ -78,7 +78,7 @@ def test_the_summary_fits_on_a_page(atmosphere):
 
 
 @pytest.mark.parametrize("arguments, code, expected", [
-    (["{file}", "--plot", "{folder}/absent/air"], 1, "absent: "),
+    (["{file}", "--plot", "{folder}/absent/air"], 1, "absent/air_sky.png: No such file or directory"),
     (["{file}", "--plot"], 2, "needs a value"),
     (["{file}", "-o", "x.rad"], 2, "unknown option '-o'"),
     (["{folder}/none.rad"], 1, "none.rad"),
