@@ -48,8 +48,9 @@ static void take(void *self, const char *path, const void *bytes, size_t size)
         sha256_update(&context, portion, (const uint8_t *)bytes + at);
     }
     finish(&context, size, &hash);
-    if (name_table_number(h->paths, 0, path, &number) != STATUS_OK ||
-        (number == h->count && !array_add(&h->entry, h->count, sizeof *h->entry))) {
+    /* Room comes first, so that every path with a number has an entry. */
+    if (!array_add(&h->entry, h->count, sizeof *h->entry) ||
+        name_table_number(h->paths, 0, path, &number) != STATUS_OK) {
         h->is_short_of_memory = true;
     } else if (number == h->count) {
         h->entry[h->count++] = (entry){.hash = hash};
