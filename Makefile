@@ -58,7 +58,7 @@ SCENES := $(patsubst scenes/%/make_geometry.py,scenes/%/.geometry,$(wildcard sce
 .DELETE_ON_ERROR:
 .SECONDARY:
 .SECONDEXPANSION:
-.PHONY: help exact-rays deps all atmosphere atmosphere-data scenes demo test lint bench bench-start bench-rays renders clean bench-view screenshots
+.PHONY: help exact-rays deps all atmosphere atmosphere-data scenes demo test test-threads lint bench bench-start bench-rays renders clean bench-view screenshots
 
 ## help: list the targets
 help:
@@ -245,14 +245,6 @@ SANITIZED_TESTS := $(addprefix tests/cli/test_,bands.py check.py formats.py prob
 test-sanitizers:
 	@$(MAKE) test SAN=$(SANITIZERS) TESTS="$(SANITIZED_TESTS)"
 
-# What runs in several threads.
-THREAD_TESTS := bvh bvh_binary bvh_cache bvh_wide parallel_job image output_folder quick_look render tile_queue
-
-## test-threads: what runs in several threads, with ThreadSanitizer
-test-threads:
-	@$(MAKE) test SAN=thread HOST_TESTS="$(THREAD_TESTS:%=build/san-thread/tests/%)" \
-	    TESTS="tests/cli/test_devices.py"
-
 # Oclgrind 21.10 does not know some of what its compiler makes of optimised code.
 OCLGRIND := oclgrind --log build/oclgrind.log --data-races --build-options "-cl-opt-disable -DRAY_PORTABLE"
 
@@ -263,11 +255,26 @@ test-oclgrind: test-deps all
 	@if [ -s build/oclgrind.log ]; then cat build/oclgrind.log; exit 1; fi
 	$(PYTHON) -m pytest -q -rs -p no:cacheprovider tests/cli/test_oclgrind.py
 
+# What runs in several threads; bvh_cache forks.
+THREADED := bvh bvh_binary bvh_cache bvh_wide image interrupt output_file output_folder parallel_job \
+	quick_look render status tile_queue
+THREADED_RENDER = $(RUN_SANITIZED) $(PROGRAM) render scenes/airport/scene.toml -o $(BUILD)/threads
+
+## test-threads: what runs in several threads; SAN=thread builds it with ThreadSanitizer
+test-threads: deps $(PROGRAM) scenes $(THREADED:%=$(BUILD)/tests/%)
+	@set -e; for t in $(THREADED); do $(RUN_SANITIZED) $(BUILD)/tests/$$t; done
+	$(THREADED_RENDER) --size 48x32 --exr
+	POCL_DEVICES="pthread pthread" $(THREADED_RENDER) --size 160x160 --mode thesis --device 0,1
+	$(RUN_SANITIZED) timeout --preserve-status -s INT 5 $(PROGRAM) render scenes/airport/scene.toml \
+	    -o $(BUILD)/threads --size 512x512; test $$? = 130
+	rm -r $(BUILD)/threads
+
 # PoCL and LLVM keep memory until the process ends, and LLVM puts a signal stack of its own in the place of
 # AddressSanitizer's in threads that build kernels. LeakSanitizer dies of threads that end while it looks.
 RUN_SANITIZED = $(if $(SAN),ASAN_OPTIONS=use_sigaltstack=0 \
 	LSAN_OPTIONS=use_tls=0:print_suppressions=0:suppressions=$(CURDIR)/tests/sanitizer.supp \
-	UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=suppressions=$(CURDIR)/tests/threads.supp,) \
+	UBSAN_OPTIONS=print_stacktrace=1 \
+	TSAN_OPTIONS=die_after_fork=0:suppressions=$(CURDIR)/tests/threads.supp,) \
 	RADSIG_SHARED=$${RADSIG_SHARED:-../shared}
 
 $(BUILD)/tests/plugins: | $(BUILD)/plugins/image.so

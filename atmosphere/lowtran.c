@@ -2,6 +2,7 @@
 
 #include "lowtran.h"
 
+#include "base/interrupt.h"
 #include "files/staging_folder.h"
 #include "lowtran_process.h"
 
@@ -11,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { WORKER_LIMIT = 64 };
@@ -28,13 +30,6 @@ typedef struct crew {
     lowtran_process *process[WORKER_LIMIT];
     size_t deck[WORKER_LIMIT]; /* that the process runs */
 } crew;
-
-static volatile sig_atomic_t interrupted;
-
-void lowtran_interrupt(int signal_number)
-{
-    interrupted = signal_number;
-}
 
 static int processor_count(void)
 {
@@ -66,14 +61,32 @@ static void crew_free(crew *c)
     staging_folder_free(c->folder);
 }
 
-/* Waits for a child; returns its worker, or -1 after a failure. */
-static int wait_for_one(const crew *c, int *out_status)
+/* Looks for a worker whose child has ended; -1: none has. */
+static int find_ended(const crew *c, int *out_status)
 {
-    const pid_t child = interrupted ? -1 : waitpid(-1, out_status, 0);
-
-    for (int i = 0; child > 0 && i < c->count; i++)
-        if (lowtran_process_id(c->process[i]) == child) return i;
+    for (int i = 0; i < c->count; i++) {
+        const pid_t child = lowtran_process_id(c->process[i]);
+        if (child && waitpid(child, out_status, WNOHANG) == child) return i;
+    }
     return -1;
+}
+
+/* Waits for one of the crew's children, and for no other. The signal of its end is blocked: one that comes
+ * before the waiting is still there. */
+static status wait_for_one(const crew *c, int *out_worker, int *out_status)
+{
+    status rc = STATUS_OK;
+    const struct timespec most = {.tv_nsec = 100000000};
+    sigset_t ended;
+
+    sigemptyset(&ended);
+    sigaddset(&ended, SIGCHLD);
+    while ((*out_worker = find_ended(c, out_status)) < 0) {
+        TRY(interrupt_check());
+        sigtimedwait(&ended, NULL, &most);
+    }
+out:
+    return rc;
 }
 
 /* For each deck the first one that has its text. */
@@ -126,19 +139,23 @@ status lowtran_run_decks(const char *const *decks, const char *const *names, siz
     crew c = {0};
     job j = {decks, names, count, NULL, take, receiver};
     size_t next = 0;
-    int wait_status;
+    int worker, wait_status;
+    sigset_t ended, before;
 
+    sigemptyset(&ended);
+    sigaddset(&ended, SIGCHLD);
+    sigprocmask(SIG_BLOCK, &ended, &before);
     TRY(find_same(&j.same, decks, count));
     TRY(crew_open(&c, count));
-    for (int worker = 0; worker < c.count; worker++) TRY(start_next(&c, worker, &j, &next));
+    for (worker = 0; worker < c.count; worker++) TRY(start_next(&c, worker, &j, &next));
     while (c.busy > 0) {
-        const int worker = wait_for_one(&c, &wait_status);
-        NEED(worker >= 0, STATUS_INTERRUPTED, "interrupted at run %zu of %zu", next, count);
+        TRY(wait_for_one(&c, &worker, &wait_status));
         TRY(finish(&c, worker, wait_status, &j));
         TRY(start_next(&c, worker, &j, &next));
     }
 out:
     crew_free(&c);
     free(j.same);
+    sigprocmask(SIG_SETMASK, &before, NULL);
     return rc;
 }

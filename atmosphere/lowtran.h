@@ -31,11 +31,9 @@ typedef status (*lowtran_taker)(void *receiver, size_t index, const lowtran_run 
  * text share one run.
  *   decks   shape (count), the text of each
  *   names   shape (count), for messages
- * Fails with STATUS_FORMAT where LOWTRAN refuses a deck: the message holds what it said. */
+ * Fails with STATUS_FORMAT where LOWTRAN refuses a deck: the message holds what it said. An interrupt ends
+ * the processes. Children that others started are left alone. */
 status lowtran_run_decks(const char *const *decks, const char *const *names, size_t count,
                          lowtran_taker take, void *receiver);
-
-/* A signal handler: makes the call above fail with STATUS_INTERRUPTED. */
-void lowtran_interrupt(int signal_number);
 
 #endif

@@ -1,8 +1,6 @@
 /* radsig-atmosphere: makes radiance databases and cloud extinctions with LOWTRAN 7. */
-#include "lowtran.h"
+#include "base/interrupt.h"
 #include "tool.h"
-
-#include <signal.h>
 
 static const program_command commands[] = {
     {"make", tool_make, "make the radiance database of a scene"},
@@ -14,11 +12,8 @@ static const program_command commands[] = {
 
 int main(int argc, char **argv)
 {
-    const struct sigaction interrupt = {.sa_handler = lowtran_interrupt};
     const program tool = {"radsig-atmosphere", commands, sizeof commands / sizeof *commands};
 
-    sigaction(SIGINT, &interrupt, NULL);
-    sigaction(SIGTERM, &interrupt, NULL);
-    if (signal(SIGHUP, SIG_IGN) != SIG_IGN) sigaction(SIGHUP, &interrupt, NULL); /* but for nohup */
+    interrupt_catch_signals();
     return program_run(&tool, argc, argv);
 }

@@ -305,7 +305,7 @@ RECORD_SIZE(emissivity_record, 16);
 /* A band of the detectors; radiances in the unit of its plane. */
 typedef struct detector_record {
     uint seed, frame, band; /* what random numbers are keyed by */
-    uint columns, count;    /* detectors */
+    uint columns, count;    /* detectors of a row, of the launch */
     uint last_count;        /* 2^bits - 1; 0: not quantised */
     float noise;            /* standard deviation */
     float shot;             /* variance per radiance */
@@ -314,18 +314,20 @@ typedef struct detector_record {
     float periodic;                 /* amplitude */
     float waves_across, waves_down; /* per detector */
     float gain, offset;             /* count = gain x radiance + offset */
-    uint unused;
+    uint first;                     /* detector, of all, that the launch begins with */
 } detector_record;
 RECORD_SIZE(detector_record, 64);
 
 /* How the pixels of a picture fall on detectors, see blur.cl. */
 typedef struct blur_record {
-    uint columns, rows; /* detectors */
+    uint columns, rows; /* detectors of the launch */
     uint step;          /* pixels of a detector, across and down */
     uint picture_columns, picture_rows;
     uint weight_columns, weight_rows;
     int first_column, first_row;
-    uint unused[3];
+    uint first;  /* row of detectors, of all, that the launch begins with */
+    int present; /* row of the picture that the buffer begins with */
+    uint unused;
 } blur_record;
 RECORD_SIZE(blur_record, 48);
 

@@ -151,7 +151,7 @@ out:
     preview_free(p);
     if (s) s->free(s);
     shared_scene_drop(o.of);
-    return interrupt_status(rc);
+    return rc;
 }
 
 int main(int argc, char **argv)

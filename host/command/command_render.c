@@ -196,7 +196,6 @@ static status run(const arguments *a)
     TRY(parallel_run(list, sizeof list / sizeof *list));
     TRY(render_output(o.s, o.dev, a->device_count, &a->output));
 out:
-    rc = interrupt_status(rc);
     for (size_t i = 0; i < a->device_count; i++) device_free(o.dev[i]);
     scene_free(o.s);
     return rc;

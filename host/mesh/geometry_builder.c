@@ -256,9 +256,11 @@ static status connect(geometry_builder *builder)
             corner[used++] = g->corner[i][k];
     }
     first[g->facet_count] = used;
-    NEED(mesh_connect(&connection, g->vertex_count, (const double(*)[3])builder->position,
-                      g->facet_count, first, corner, message, sizeof message) == 0,
-         STATUS_MEMORY, "no memory for %s", message);
+    const int failed =
+        mesh_connect(&connection, g->vertex_count, (const double(*)[3])builder->position,
+                     g->facet_count, first, corner, message, sizeof message);
+    TRY(interrupt_check());
+    NEED(!failed, STATUS_MEMORY, "no memory for %s", message);
     for (uint32_t i = 0; i < g->facet_count; i++)
         for (uint32_t k = 0; k < 4; k++)
             g->neighbour[i][k] =

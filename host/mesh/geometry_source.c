@@ -26,19 +26,29 @@ out:
     return rc;
 }
 
-status geometry_source_read(geometry_source **out, const char *path)
+static status read_mesh(geometry_source *source, const char *path)
 {
     status rc = STATUS_OK;
     char message[1024];
+
+    cancel_ask(interrupt_is_set);
+    const int failed = mesh_file_read(&source->mesh, path, message, sizeof message);
+    TRY(interrupt_check());
+    NEED(!failed, STATUS_FORMAT, "%s", message);
+out:
+    return rc;
+}
+
+status geometry_source_read(geometry_source **out, const char *path)
+{
+    status rc = STATUS_OK;
     geometry_source *source = calloc(1, sizeof *source);
 
     NEED(source, STATUS_MEMORY, "%s: no memory to read it", path);
-    cancel_ask(interrupt_is_set);
     if (file_name_ends(path, ".gdb"))
         TRY(read_geometry_file(source, path));
     else
-        NEED(mesh_file_read(&source->mesh, path, message, sizeof message) == 0, STATUS_FORMAT, "%s",
-             message);
+        TRY(read_mesh(source, path));
     *out = source;
     source = NULL;
 out:

@@ -1,5 +1,6 @@
 #include "options/program.h"
 
+#include "base/interrupt.h"
 #include "base/spelling.h"
 #include "options/standard_output.h"
 
@@ -92,6 +93,7 @@ void program_warn(const char *command)
 int program_end(const char *command, status rc)
 {
     program_warn(command);
+    rc = interrupt_status(rc);
     if (rc == STATUS_OK) return 0;
     print_lines(command, "", status_message());
     return rc == STATUS_INTERRUPTED ? EXIT_INTERRUPTED : 1;

@@ -11,7 +11,7 @@
 
 typedef struct detector_chain detector_chain;
 
-/* Prepares a picture for all its bands. */
+/* Prepares for pictures of a size: builds what all bands have of the point spread function. */
 status detector_chain_open(detector_chain **out, device *dev, const detector_settings *how,
                            uint32_t columns, uint32_t rows);
 void detector_chain_free(detector_chain *d);
@@ -20,7 +20,7 @@ void detector_chain_free(detector_chain *d);
 uint32_t detector_chain_columns(const detector_chain *d);
 uint32_t detector_chain_rows(const detector_chain *d);
 
-/* Degrades one band.
+/* Degrades one band, some rows at a time: memory does not grow with the picture.
  *   rule      as the radiance was integrated; with the database's points Planck's law has the thesis' constants
  *   radiance  shape (rows, columns) of the picture, W m-2 sr-1 or its mean per um
  *   out       shape (rows, columns) of the detectors, the same unit */

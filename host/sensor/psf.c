@@ -1,5 +1,6 @@
 #include "sensor/psf.h"
 
+#include "base/interrupt.h"
 #include "files/record_file.h"
 
 #include <math.h>
@@ -31,6 +32,16 @@ void psf_free(psf *p)
     if (!p) return;
     free(p->weight);
     free(p);
+}
+
+status psf_copy(psf **out, const psf *p)
+{
+    status rc = STATUS_OK;
+
+    TRY(allocate(out, p->columns, p->rows, p->first_column, p->first_row));
+    memcpy((*out)->weight, p->weight, (size_t)p->columns * (size_t)p->rows * sizeof *p->weight);
+out:
+    return rc;
 }
 
 static double *weight_at(const psf *p, int column, int row)
@@ -73,11 +84,14 @@ status psf_add(psf *p, const psf *spread)
 
     TRY(allocate(&sum, p->columns + spread->columns - 1, p->rows + spread->rows - 1,
                  p->first_column + spread->first_column, p->first_row + spread->first_row));
-    for (int i = 0; i < p->rows * p->columns; i++)
+    for (int i = 0; i < p->rows * p->columns; i++) {
+        TRY(interrupt_check());
+        if (p->weight[i] == 0.0) continue;
         for (int row = 0; row < spread->rows; row++)
             for (int column = 0; column < spread->columns; column++)
                 sum->weight[(i / p->columns + row) * sum->columns + i % p->columns + column] +=
                     p->weight[i] * spread->weight[row * spread->columns + column];
+    }
     free(p->weight);
     *p = *sum;
     sum->weight = NULL;

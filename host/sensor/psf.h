@@ -22,6 +22,7 @@ status psf_detector(psf **out, int step);
  * and columns up to 129, the point in the middle, the first line on top. Scaled to a sum of 1. */
 status psf_read(psf **out, const char *path);
 void psf_free(psf *p);
+status psf_copy(psf **out, const psf *p);
 
 /* Each spreads what is there once more; lengths in pixels. Fails with STATUS_MEMORY. */
 status psf_add_gaussian(psf *p, double fwhm);

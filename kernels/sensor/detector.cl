@@ -6,6 +6,7 @@ kernel void detector(const detector_record record, global const float *radiance,
 {
     const uint i = get_global_id(0);
     if (i >= record.count) return;
-    const float patterned = detector_pattern(&record, i, radiance[i]);
-    out[i] = detector_quantise(&record, detector_noise(&record, i, patterned));
+    const uint place = record.first + i;
+    const float patterned = detector_pattern(&record, place, radiance[i]);
+    out[i] = detector_quantise(&record, detector_noise(&record, place, patterned));
 }

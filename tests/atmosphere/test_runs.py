@@ -63,6 +63,26 @@ def test_an_interrupted_run_leaves_the_old_file_and_nothing_else(atmosphere, tmp
     assert sorted(path.name for path in tmp_path.rglob("*")) == ["scratch", "x.radc"]
 
 
+def test_an_interrupt_of_the_program_alone_ends_lowtran_too(atmosphere, tmp_path):
+    started = start(tmp_path)
+    begin = time.monotonic()
+    started.send_signal(signal.SIGINT)
+    started.communicate()
+
+    assert started.returncode == 130
+    assert time.monotonic() - begin < 2  # a tenth of a second, and what else CI's processors do
+    assert not subprocess.run(["pgrep", "-g", str(started.pid)], capture_output=True).stdout
+
+
+def test_children_that_others_started_are_left_alone(atmosphere, tmp_path):
+    # the shell becomes radsig-atmosphere, and its sleep that program's child, which ends meanwhile
+    done = subprocess.run(
+        ["sh", "-c", 'sleep 0.1 & exec "$@"', "sh", BUILD / "radsig-atmosphere", "make", VISIBLE,
+         "-o", tmp_path / "x.radc"], capture_output=True, text=True)
+
+    assert done.returncode == 0, done.stderr
+
+
 def test_what_a_killed_run_left_goes_with_the_next(atmosphere, tmp_path):
     started = start(tmp_path)
     os.killpg(started.pid, signal.SIGKILL)

@@ -2,6 +2,7 @@
 import os
 import pathlib
 import re
+import subprocess
 
 import pytest
 
@@ -157,6 +158,67 @@ def test_a_device_that_fails_leaves_its_tiles_to_the_other_with_a_warning(progra
     for name in ("plane.img", "plane_truth.img"):
         assert (tmp_path / "alone" / name).read_bytes() == (
             tmp_path / "both_devices" / name).read_bytes()
+
+
+# In front of the OpenCL loader: once a file exists, launches on one of the queues fail.
+FAILING = r"""
+#define _GNU_SOURCE
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+#include <dlfcn.h>
+#include <stdlib.h>
+#include <unistd.h>
+static cl_command_queue bad;
+static int queues;
+cl_command_queue clCreateCommandQueue(cl_context c, cl_device_id d, cl_command_queue_properties p,
+                                      cl_int *e)
+{
+    cl_command_queue (*next)(cl_context, cl_device_id, cl_command_queue_properties, cl_int *) =
+        dlsym(RTLD_NEXT, "clCreateCommandQueue");
+    cl_command_queue q = next(c, d, p, e);
+    if (queues++ == atoi(getenv("FAILING_QUEUE"))) bad = q;
+    return q;
+}
+cl_int clEnqueueNDRangeKernel(cl_command_queue q, cl_kernel k, cl_uint n, const size_t *o,
+                              const size_t *g, const size_t *l, cl_uint w, const cl_event *v,
+                              cl_event *e)
+{
+    cl_int (*next)(cl_command_queue, cl_kernel, cl_uint, const size_t *, const size_t *,
+                   const size_t *, cl_uint, const cl_event *, cl_event *) =
+        dlsym(RTLD_NEXT, "clEnqueueNDRangeKernel");
+    if (q == bad && access(getenv("FAILING_SINCE"), F_OK) == 0) return CL_DEVICE_NOT_AVAILABLE;
+    return next(q, k, n, o, g, l, w, v, e);
+}
+"""
+
+
+@pytest.mark.parametrize("bad", [0, 1])
+def test_a_device_that_fails_at_a_later_time_is_left_out_with_a_warning(program, tmp_path, bad):
+    (tmp_path / "failing.c").write_text(FAILING)
+    subprocess.run(["cc", "-shared", "-fPIC", "-o", tmp_path / "failing.so", tmp_path / "failing.c",
+                    "-ldl"], check=True)
+    scene = program.write_scene(
+        tmp_path, render={"thermal": "therm"},
+        material=[{"name": "wall", "emissivity": 0.9, "density_kg_m3": 2114.0,
+                   "specific_heat_j_kg_k": 920.0, "conductivity_w_m_k": 0.689, "thickness_cm": 5.0,
+                   "exposed_area": -0.5}],
+        weather={"air_temperature_sunrise_c": 15.0, "air_temperature_peak_c": 29.0,
+                 "peak_time_h": 15.0, "relative_humidity_sunrise": 0.9, "wind_m_s": 2.0})
+    options = ("--size", "320x320", "--time",
+               "1992-06-21T10:00:00-04:00,1992-06-21T13:00:00-04:00")
+    pocl = {"POCL_DEVICES": "pthread pthread"}
+    first, second = "19920621T100000-0400", "19920621T130000-0400"
+
+    alone = render_on(program, scene, tmp_path / "alone", "0", pocl, *options)
+    both = render_on(program, scene, tmp_path / "both", "0,1",
+                     {**pocl, "LD_PRELOAD": str(tmp_path / "failing.so"), "FAILING_QUEUE": str(bad),
+                      "FAILING_SINCE": str(tmp_path / "both" / first / "plane.json")}, *options)
+
+    assert alone.returncode == 0 and both.returncode == 0, both.stderr
+    assert f"warning: device {bad} (" in both.stderr and "CL_DEVICE_NOT_AVAILABLE" in both.stderr
+    for folder in (first, second):
+        assert (tmp_path / "alone" / folder / "plane.img").read_bytes() == (
+            tmp_path / "both" / folder / "plane.img").read_bytes()
 
 
 def test_where_the_only_device_fails_the_render_fails_and_leaves_nothing(program, tmp_path,

@@ -50,9 +50,9 @@ INCIDENT = record("*cell_count *dome_count *ring_count *light_length *is_of_face
 EMISSIVITY = record("*low *high fraction *unused")
 BAND = record("*first_sample *sample_count gain offset width_um *is_mean *first_weight *unused")
 DETECTOR = record("*seed *frame *band *columns *count *last_count noise shot fixed_gain fixed_offset"
-                  " periodic waves_across waves_down gain offset *unused")
+                  " periodic waves_across waves_down gain offset *first")
 BLUR = record("*columns *rows *step *picture_columns *picture_rows *weight_columns *weight_rows"
-              " *first_column *first_row *unused[3]")
+              " *first_column *first_row *first *present *unused")
 SPAN = record("*facet_count *first_step *row_count *sunlit_words weight step_s *sunlit_period *step_count")
 SUN_DAY = record("*slot_count *word_count *nearest since_min step_min *stride *unused[2]")
 MEDIUM_WORLD = record("low[3] high[3] altitude_m *level_count stated_k[4] broad_band_per_m[4] *scatters[4]")
