@@ -253,7 +253,7 @@ OCLGRIND := oclgrind --log build/oclgrind.log --data-races --build-options "-cl-
 ## test-oclgrind: kernels under Oclgrind: no access out of bounds, no race
 test-oclgrind: test-deps all
 	@rm -f build/oclgrind.log
-	$(OCLGRIND) $(PYTEST) -m "not large" tests/kernels
+	$(OCLGRIND) $(PYTEST) -n 0 -m "not large" tests/kernels
 	@if [ -s build/oclgrind.log ]; then cat build/oclgrind.log; exit 1; fi
 	$(PYTEST) tests/cli/test_oclgrind.py
 

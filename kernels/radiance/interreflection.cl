@@ -1,4 +1,5 @@
 #include "kernels/radiance/incident_hemisphere.h"
+#include "kernels/radiance/series_tail.h"
 
 /* What facets get besides their fraction of the sky: how their lobe takes the sun, and by how much the
  * radiance that reaches them differs from what incident.h closes it with. Exact mode.
@@ -7,12 +8,14 @@
  * facet_background: per facet
  * arriving: (pixel_count, 2, sample_count): radiance of sky and of facets that reaches these; NULL: as
  *   closed
+ * keeps: INTERREFLECTION_KEEPS_..., what is done with
+ * kept: (pixel_count, 2, sample_count): what reached these four and two depths before; NULL: nothing
  * light: (facets, LIGHT_ROWS, sample_count) */
 kernel void interreflection(const radiometry_record frame, OPTIONAL global const hit_record *hit,
                             TABLES(SURFACE_TABLES),
                             global const background_record *facet_background,
                             TABLES(SPECTRA_TABLES), OPTIONAL global const float *arriving,
-                            global float *light)
+                            const uint keeps, OPTIONAL global float *kept, global float *light)
 {
     const uint i = get_global_id(0), row = frame.sample_count;
     if (i >= frame.pixel_count) return;
@@ -43,6 +46,14 @@ kernel void interreflection(const radiometry_record frame, OPTIONAL global const
         if (arriving) {
             global const float *from_sky = arriving + (size_t)i * 2u * row;
             more = spectrum_load(from_sky, block) + spectrum_load(from_sky + row, block) - closed;
+        }
+        if (keeps != INTERREFLECTION_KEEPS_NONE) {
+            global float *first = kept + (size_t)i * 2u * row, *middle = first + row;
+            if (keeps == INTERREFLECTION_KEEPS_FIRST) spectrum_store(closed + more, first, block);
+            if (keeps == INTERREFLECTION_KEEPS_MIDDLE) spectrum_store(closed + more, middle, block);
+            if (keeps == INTERREFLECTION_ADDS_TAIL)
+                more += series_tail(spectrum_load(first, block), spectrum_load(middle, block),
+                                    closed + more);
         }
         spectrum_store(of_sun, to + LIGHT_LOBE * row, block);
         spectrum_store(more, to + LIGHT_EXTRA * row, block);
