@@ -221,7 +221,7 @@ demo: deps all
 	@echo "written:"; ls out/airport | sed 's,^,  out/airport/,'
 
 # What the tests need beside what the program needs.
-.PHONY: test-deps test-sanitizers test-threads test-oclgrind
+.PHONY: test-deps test-sanitizers test-threads
 test-deps: deps
 	@$(call install,$(TEST_PACKAGES))
 
@@ -246,16 +246,6 @@ SANITIZED_TESTS := $(addprefix tests/cli/test_,bands.py check.py formats.py prob
 ## test-sanitizers: the tests in C and some of the programs', with AddressSanitizer and UBSan
 test-sanitizers:
 	@$(MAKE) test SAN=$(SANITIZERS) TESTS="$(SANITIZED_TESTS)"
-
-# Oclgrind 21.10 does not know some of what its compiler makes of optimised code.
-OCLGRIND := oclgrind --log build/oclgrind.log --data-races --build-options "-cl-opt-disable -DRAY_PORTABLE"
-
-## test-oclgrind: kernels under Oclgrind: no access out of bounds, no race
-test-oclgrind: test-deps all
-	@rm -f build/oclgrind.log
-	$(OCLGRIND) $(PYTEST) -n 0 -m "not large" tests/kernels
-	@if [ -s build/oclgrind.log ]; then cat build/oclgrind.log; exit 1; fi
-	$(PYTEST) tests/cli/test_oclgrind.py
 
 # What runs in several threads; bvh_cache forks.
 THREADED := bvh bvh_binary bvh_cache bvh_wide image interrupt output_file output_folder parallel_job \

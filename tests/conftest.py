@@ -8,10 +8,6 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path += [str(HERE), str(HERE / "kernels"), str(HERE / "cli")]
 
 
-def pytest_configure(config):
-    config.addinivalue_line("markers", "large: too many work-items for Oclgrind")
-
-
 def pytest_terminal_summary(terminalreporter):
     """The tests in C that were skipped before, and why; pytest's own follow by -rs."""
     file = os.environ.get("RADSIG_SKIPPED")

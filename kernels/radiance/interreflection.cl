@@ -1,6 +1,17 @@
 #include "kernels/radiance/incident_hemisphere.h"
 #include "kernels/radiance/series_tail.h"
 
+/* Keeps what arrives at one of the last depths; at the last, returns what those beyond would bring.
+ *   kept   (2, row) */
+static inline spectrum keep_or_end(uint keeps, global float *kept, uint row, uint block,
+                                   spectrum arrives)
+{
+    if (keeps == INTERREFLECTION_ADDS_TAIL)
+        return series_tail(spectrum_load(kept, block), spectrum_load(kept + row, block), arrives);
+    spectrum_store(arrives, keeps == INTERREFLECTION_KEEPS_FIRST ? kept : kept + row, block);
+    return (spectrum)0.0f;
+}
+
 /* What facets get besides their fraction of the sky: how their lobe takes the sun, and by how much the
  * radiance that reaches them differs from what incident.h closes it with. Exact mode.
  * Launch: (frame.pixel_count); the frame's samples are the means of blocks of samples
@@ -47,14 +58,8 @@ kernel void interreflection(const radiometry_record frame, OPTIONAL global const
             global const float *from_sky = arriving + (size_t)i * 2u * row;
             more = spectrum_load(from_sky, block) + spectrum_load(from_sky + row, block) - closed;
         }
-        if (keeps != INTERREFLECTION_KEEPS_NONE) {
-            global float *first = kept + (size_t)i * 2u * row, *middle = first + row;
-            if (keeps == INTERREFLECTION_KEEPS_FIRST) spectrum_store(closed + more, first, block);
-            if (keeps == INTERREFLECTION_KEEPS_MIDDLE) spectrum_store(closed + more, middle, block);
-            if (keeps == INTERREFLECTION_ADDS_TAIL)
-                more += series_tail(spectrum_load(first, block), spectrum_load(middle, block),
-                                    closed + more);
-        }
+        if (keeps != INTERREFLECTION_KEEPS_NONE)
+            more += keep_or_end(keeps, kept + (size_t)i * 2u * row, row, block, closed + more);
         spectrum_store(of_sun, to + LIGHT_LOBE * row, block);
         spectrum_store(more, to + LIGHT_EXTRA * row, block);
         spectrum_store(closed + more, to + LIGHT_ARRIVING * row, block);

@@ -15,7 +15,7 @@ static inline spectrum series_tail(spectrum first, spectrum middle, spectrum las
     const spectrum fell = last - middle;
     /* 0 / 0 is 0. */
     const spectrum ratio = fmin(fmax(fell / (middle - first), 0.0f), 1.0f);
-    const spectrum settled = ratio * (1.0f - step(SERIES_TAIL_RATIO, ratio));
+    const spectrum settled = ratio < SERIES_TAIL_RATIO ? ratio : (spectrum)0.0f;
 
     return fell * settled / (1.0f - settled);
 }

@@ -45,7 +45,6 @@ def test_an_enclosed_point_has_shape_factor_zero(opencl, reading):
     assert np.all(out["met_count"] == 72)
 
 
-@pytest.mark.large
 @pytest.mark.parametrize("size", [1.0, 300.0])
 @pytest.mark.parametrize("seed", range(8))
 def test_a_plane_never_shadows_itself(opencl, size, seed):
@@ -74,7 +73,6 @@ def test_an_endless_wall_at_the_point_hides_half_the_sky(opencl):
 
 
 # Shares of the weight above 30 degrees: 1 - sin^2, 1 - sin and cos of 30; notes of the field agree.
-@pytest.mark.large
 @pytest.mark.parametrize("reading, fraction", [("cosine", 0.75), ("solid-angle", 0.5),
                                             ("thesis", 0.8660254)])
 def test_a_ring_up_to_30_degrees_leaves_the_closed_form(opencl, reading, fraction):
@@ -190,7 +188,6 @@ def test_a_pixel_without_a_facet_has_factor_one_and_no_background(opencl):
     assert out["material"] == NONE and out["facet"] == NONE
 
 
-@pytest.mark.large
 @pytest.mark.parametrize("local", [1, 16, 64])
 def test_factors_do_not_depend_on_how_points_are_grouped(opencl, local):
     random = np.random.default_rng(1)
@@ -208,7 +205,6 @@ def test_factors_do_not_depend_on_how_points_are_grouped(opencl, local):
     assert whole.tobytes() == np.concatenate(parts).tobytes()
 
 
-@pytest.mark.large
 @pytest.mark.parametrize("ways", [1, 8, 200])
 @pytest.mark.parametrize("spread_m, triangles", [(1.0, 300), (0.05, 300), (1.0, 5000)])
 def test_words_of_packets_and_beams_are_those_of_single_rays(opencl, ways, spread_m, triangles):

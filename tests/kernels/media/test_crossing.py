@@ -85,7 +85,6 @@ def test_a_box_transmits_the_exponential_of_its_chord(paths, distance, bound):
     assert error.max() < bound
 
 
-@pytest.mark.large
 def test_a_sphere_is_as_thick_as_its_chord(paths):
     origin, direction = aimed(2, 20000, 5.0, 1.0)
 

@@ -45,7 +45,6 @@ def test_without_a_part_the_radiance_goes_through_unchanged(opencl):
     assert (detect(opencl, radiance, seed=3) == radiance).all()
 
 
-@pytest.mark.large
 def test_noise_is_normal_with_its_standard_deviation(opencl):
     noise = detect(opencl, np.full(COUNT, 50.0), noise=2.0) - 50.0
 
@@ -57,7 +56,6 @@ def test_noise_is_normal_with_its_standard_deviation(opencl):
         assert found == pytest.approx(fraction, abs=5 * (fraction * (1 - fraction) / COUNT) ** .5 + 5e-5)
 
 
-@pytest.mark.large
 def test_noise_of_neighbours_is_independent(opencl):
     noise = detect(opencl, np.zeros(COUNT), noise=1.0)
 
@@ -65,7 +63,6 @@ def test_noise_of_neighbours_is_independent(opencl):
         assert abs(np.mean(noise[step:] * noise[:-step])) < 5 / COUNT**.5
 
 
-@pytest.mark.large
 @pytest.mark.parametrize("field", ["seed", "frame", "band"])
 def test_another_key_draws_other_numbers(opencl, field):
     noise = [detect(opencl, np.zeros(COUNT), noise=1.0, **{field: k}) for k in (1, 2)]
@@ -73,7 +70,6 @@ def test_another_key_draws_other_numbers(opencl, field):
     assert abs(np.mean(noise[0] * noise[1])) < 5 / COUNT**.5
 
 
-@pytest.mark.large
 def test_the_variance_of_shot_noise_goes_with_the_radiance(opencl):
     for radiance in (1.0, 10.0, 100.0):
         noise = detect(opencl, np.full(COUNT, radiance), shot=0.02, noise=0.3)
@@ -81,7 +77,6 @@ def test_the_variance_of_shot_noise_goes_with_the_radiance(opencl):
         assert noise.var() == pytest.approx(expected, rel=5 * (2 / COUNT) ** .5)
 
 
-@pytest.mark.large
 def test_a_fixed_pattern_is_the_same_in_every_frame(opencl):
     radiance = np.full(COUNT, 20.0)
     first, second = (detect(opencl, radiance, frame=k, fixed_gain=.01, fixed_offset=.5)
@@ -92,7 +87,6 @@ def test_a_fixed_pattern_is_the_same_in_every_frame(opencl):
     assert first.var() == pytest.approx(expected, rel=5 * (2 / COUNT) ** .5)
 
 
-@pytest.mark.large
 def test_a_periodic_wave_is_a_sine_of_the_place(opencl):
     got = detect(opencl, np.full(1 << 16, 10.0), periodic=.25, waves_across=.125, waves_down=.03)
 

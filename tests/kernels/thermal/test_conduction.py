@@ -48,7 +48,6 @@ def bits(lit):
     return np.repeat(np.where(lit, 0xFFFFFFFF, 0).astype(np.uint32)[None], 3, axis=0)
 
 
-@pytest.mark.large
 @pytest.mark.parametrize("conductance_w_k", [1e-4, 5.4e-3, 10.0])
 def test_a_lit_plate_warms_its_neighbours_as_the_network_says(conduct, conductance_w_k):
     facets, links = strip(conductance_w_k, absorptance=1.0)
