@@ -3,8 +3,8 @@
 #include "files/record_file.h"
 #include "image/curve.h"
 #include "image/picture.h"
+#include "station/weather_history.h"
 #include "thermal/sensitivity.h"
-#include "weather/weather_history.h"
 #include "weather/weather_place.h"
 
 #include <math.h>

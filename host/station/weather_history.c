@@ -1,8 +1,8 @@
-#include "weather/weather_history.h"
+#include "station/weather_history.h"
 
 #include "files/file_name.h"
-#include "weather/weather_epw.h"
-#include "weather/weather_surfrad.h"
+#include "station/weather_epw.h"
+#include "station/weather_surfrad.h"
 
 status weather_history_read(weather **out, const char *path, const site *place)
 {
