@@ -1,6 +1,6 @@
 #include "station/light_course.h"
 
-#include "station/sun_span.h"
+#include "weather/sun_span.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -4,7 +4,7 @@
 #ifndef LIGHT_SPLIT_H
 #define LIGHT_SPLIT_H
 
-#include "station/sun_span.h"
+#include "weather/sun_span.h"
 
 #include <stdbool.h>
 

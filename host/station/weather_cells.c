@@ -1,7 +1,7 @@
 #include "station/weather_cells.h"
 
 #include "station/light_split.h"
-#include "station/sun_span.h"
+#include "weather/sun_span.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -16,6 +16,7 @@
 #define KELVIN ((double)ZERO_CELSIUS_K)
 #define HOUR_S 3600.0
 #define DAY_S 86400.0
+#define AROUND_S (15.0 * DAY_S) /* light of so many days tells whether the clock fits */
 
 enum { LOCATION_FIELDS = 9, NEEDED_FIELDS = 22, HEADER_LINES = 20 };
 
@@ -39,8 +40,7 @@ typedef struct epw {
     record_file *file;
     csv_row row;
     column_gaps gaps;
-    double utc_offset_h;
-    double first_s, last_s; /* what is kept */
+    double first_s, last_s; /* what is kept: around the scene's day */
     int year;               /* of the site's day */
     int stated_year;        /* of all rows; 0: none yet, -1: they differ */
     bool has_leap_day;      /* a row of 29 February */
@@ -57,10 +57,10 @@ static status read_location(epw *e)
     if (e->row.count < LOCATION_FIELDS || strcmp(e->row.field[0], "LOCATION") ||
         !number_read(e->row.field[6], &series->latitude_deg) ||
         !number_read(e->row.field[7], &series->longitude_deg) ||
-        !number_read(e->row.field[8], &e->utc_offset_h))
+        !number_read(e->row.field[8], &e->series.utc_offset_h))
         TRY(record_file_reject(e->file, "%s", expected));
     if (fabs(series->latitude_deg) > 90.0 || fabs(series->longitude_deg) > 180.0 ||
-        fabs(e->utc_offset_h) > 14.0)
+        fabs(e->series.utc_offset_h) > 14.0)
         TRY(record_file_reject(e->file, "a latitude, a longitude and hours ahead of UTC"));
     if (!number_read(csv_row_field(&e->row, 9), &series->elevation_m) ||
         !(series->elevation_m >= -500.0 && series->elevation_m <= 9000.0))
@@ -114,7 +114,7 @@ static double nearest_time_s(const epw *e, int month, int day, int hour)
 
     for (int k = -1; k <= 1; k++) {
         struct tm date = {.tm_year = e->year + k - 1900, .tm_mon = month - 1, .tm_mday = day};
-        const double time_s = (double)timegm(&date) + HOUR_S * (hour - e->utc_offset_h);
+        const double time_s = (double)timegm(&date) + HOUR_S * (hour - e->series.utc_offset_h);
         if (date.tm_mday != day) continue;
         if (fabs(time_s - middle_s) < fabs(nearest_s - middle_s)) nearest_s = time_s;
     }
@@ -195,8 +195,8 @@ status weather_epw_read(weather **out, const char *path, const site *place)
     const double midnight_s = site_midnight_s(place);
     const time_t clock_s = (time_t)(midnight_s + 60.0 * place->utc_offset_min);
     epw e = {.series = {.path = path, .span_s = HOUR_S},
-             .first_s = midnight_s - 2.0 * DAY_S - 3.0 * HOUR_S,
-             .last_s = midnight_s + DAY_S + 3.0 * HOUR_S};
+             .first_s = midnight_s - AROUND_S,
+             .last_s = midnight_s + AROUND_S};
     struct tm date;
 
     gmtime_r(&clock_s, &date);

@@ -4,15 +4,19 @@
 #include "sky/sun.h"
 #include "station/light_course.h"
 #include "station/weather_cells.h"
+#include "weather/weather_clock.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
-enum { CLOUD_TYPE = 4 };
+enum { CLOUD_TYPE = 4, LONGEST = 10000000 };
 
 #define FAR_KM 50.0
 #define EARTH_KM 6371.0
 #define RADIAN (M_PI / 180.0)
+#define MOST_OFFSET_H 3.5 /* from the sun's time: China's west is 3 h off */
+#define MOST_NIGHT 0.01
 
 const char *const weather_series_names[WEATHER_SERIES_COUNT] = {
     [WEATHER_SERIES_AIR_K] = "air temperature",
@@ -194,6 +198,74 @@ static double first_of(const weather_series *series)
     return series->sample[0].end_s - series->span_s;
 }
 
+/* Light of all samples at a regular step, which the caller frees; NULL without memory. */
+static double *light_of(const weather_series *series, size_t *out_count)
+{
+    const double first_s = series->sample[0].end_s;
+    const double last_s = series->sample[series->count - 1].end_s;
+    const size_t count = 1 + (size_t)lround((last_s - first_s) / series->span_s);
+    double *light = count <= LONGEST ? malloc(count * sizeof *light) : NULL;
+
+    for (size_t i = 0; light && i < count; i++) light[i] = NAN;
+    for (size_t i = 0; light && i < series->count; i++) {
+        const double *v = series->sample[i].value;
+        const double both = v[WEATHER_SERIES_DIRECT_W_M2] + v[WEATHER_SERIES_DIFFUSE_W_M2];
+        light[lround((series->sample[i].end_s - first_s) / series->span_s)] =
+            isnan(both) ? v[WEATHER_SERIES_GLOBAL_W_M2] : both;
+    }
+    *out_count = count;
+    return light;
+}
+
+/* Offset from UTC against the longitude; the sun is not asked. */
+static void check_offset(const weather_series *series)
+{
+    const double sun_h = series->longitude_deg / 15.0;
+
+    if (!(fabs(remainder(series->utc_offset_h - sun_h, 24.0)) > MOST_OFFSET_H)) return;
+    status_warn(
+        "%s: states %+.4g h from UTC, at longitude %.4g the sun's time is %+.2g h from it: is the "
+        "time zone right?",
+        series->path, series->utc_offset_h, series->longitude_deg, sun_h);
+}
+
+static void warn_of_shift(const weather_series *series, const weather_clock *clock)
+{
+    const char *turn = clock->shift_h > 0.0 ? "later" : "earlier";
+    char night[64] = "", fit[96] = "", zone[64] = "";
+
+    if (clock->night_share > MOST_NIGHT)
+        snprintf(night, sizeof night, ", %.0f %% of it falls by night", 100.0 * clock->night_share);
+    if (clock->shift_h != 0.0)
+        snprintf(fit, sizeof fit, ": times %.4g h %s would fit", fabs(clock->shift_h), turn);
+    if (clock->shift_h != 0.0 && !isnan(series->utc_offset_h))
+        snprintf(zone, sizeof zone, ", or %+.4g h from UTC where it states %+.4g",
+                 remainder(series->utc_offset_h - clock->shift_h, 24.0), series->utc_offset_h);
+    status_warn("%s: its light does not fit the sun at latitude %.4g, longitude %.4g%s%s%s",
+                series->path, series->latitude_deg, series->longitude_deg, night, fit, zone);
+}
+
+static status check_clock(const weather_series *series)
+{
+    status rc = STATUS_OK;
+    const site station = {.latitude_deg = series->latitude_deg,
+                          .longitude_deg = series->longitude_deg};
+    weather_clock clock;
+    size_t count;
+    double *light = light_of(series, &count);
+
+    if (!light) return STATUS_OK;
+    TRY(weather_clock_compare(&clock, light, count, series->sample[0].end_s - 0.5 * series->span_s,
+                              series->span_s, &station));
+    if (clock.shift_h != 0.0 || clock.night_share > MOST_NIGHT)
+        warn_of_shift(series, &clock);
+    else if (clock.days == 0.0)
+        check_offset(series);
+out:
+    free(light);
+    return rc;
+}
+
 /* The scene's day must be in the series, at least in part. */
 static status check_day(const weather_series *series, double midnight_s)
 {
@@ -242,6 +314,7 @@ status weather_series_history(weather **out, const weather_series *series, const
     *m = (making){.series = series, .place = place, .first_s = midnight_s - 86400.0};
     TRY(check_day(series, midnight_s));
     check_place(series, place);
+    TRY(check_clock(series));
     TRY(fill(m));
     TRY(weather_allocate(&w, WEATHER_RECORDS, WEATHER_INTERVAL_S));
     for (int i = 0; i < WEATHER_RECORDS; i++) w->record[i] = record_of(m, i);

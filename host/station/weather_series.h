@@ -32,6 +32,7 @@ typedef struct weather_series {
     char name[64];    /* of the station */
     double latitude_deg, longitude_deg;
     double elevation_m;  /* not-a-number: not known */
+    double utc_offset_h; /* as the file states it; not-a-number: its times are UTC */
     double span_s;       /* of every sample */
     double air_before_s; /* the air is that of so long before the end of the span */
     size_t count;
@@ -53,7 +54,8 @@ void weather_series_free(weather_series *series);
  *                        each span (light_course.h)
  * Missing longwave follows from the air (weather_record), cloud is of the altostratus kind
  * (assumed), rain as warm as the air.
- * Warns where the station is more than 50 km from the site. Fails with STATUS_FORMAT where the
+ * Warns where the station is more than 50 km from the site, and where its light, of all samples, does not
+ * fit the sun (weather_clock.h) or, without light, its offset from UTC not its longitude. Fails with STATUS_FORMAT where the
  * series has nothing of the site's day, or lacks more than an hour. */
 status weather_series_history(weather **out, const weather_series *series, const site *place);
 

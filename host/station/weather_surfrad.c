@@ -155,7 +155,7 @@ static bool is_row(record_file *file)
 status weather_surfrad_read(weather **out, const char *path, const site *place)
 {
     status rc = STATUS_OK;
-    surfrad s = {.series = {.path = path}};
+    surfrad s = {.series = {.path = path, .utc_offset_h = NAN}};
 
     TRY(record_file_open(&s.file, path));
     do {

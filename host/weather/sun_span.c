@@ -1,4 +1,4 @@
-#include "station/sun_span.h"
+#include "weather/sun_span.h"
 
 #include "kernels/constants.h"
 #include "sky/sun.h"
