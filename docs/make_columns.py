@@ -12,18 +12,21 @@ ROOT = Path(__file__).resolve().parent.parent
 TARGET = ROOT / "docs/file-formats.md"
 PLACE = re.compile(r"(<!-- columns of ([\w/.]+) -->\n).*?(<!-- end of columns -->)", re.S)
 COLUMN = re.compile(r'\[\w+\]\s*=\s*\{\s*"([^"]+)",\s*"([^"]+)",\s*(-?\d+),\s*([-\de.]+),\s*([-\de.]+),'
-                    r'[^}]*?(true|false)\s*\}')
+                    r'\s*(true|false)\s*\}')
 
 
 def table(source):
-    """A column a row: where it stands, its name, unit and range."""
+    """A column a row: where it stands, if it has no name in the file, its name, unit and range."""
     rows = sorted((int(field), name, unit, low, high, zero == "true")
                   for name, unit, field, low, high, zero in COLUMN.findall(source.read_text()))
     if not rows:
         sys.exit(f"{source.relative_to(ROOT)}: found no columns")
-    out = "| field | quantity | unit | range |\n|---|---|---|---|\n"
+    named = rows[0][0] < 0
+    out = "| name | unit | range |\n|---|---|---|\n" if named else \
+        "| field | quantity | unit | range |\n|---|---|---|---|\n"
     for field, name, unit, low, high, zero in rows:
-        out += f"| {field + 1} | {name} | {unit} | {low} to {high}{', 0 is missing' if zero else ''} |\n"
+        first = f"`{name}`" if named else f"{field + 1} | {name}"
+        out += f"| {first} | {unit} | {low} to {high}{', 0 is missing' if zero else ''} |\n"
     return out
 
 

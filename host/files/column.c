@@ -40,26 +40,98 @@ static bool is_flag(double number)
     return nines >= 2;
 }
 
-double column_value(const column *c, double number, const record_file *file, column_gaps *gaps)
+column_place column_place_at(const column *c, const unit *here, size_t field)
 {
-    if (c->is_missing_at_zero && number == 0.0) return NAN;
-    if (number >= c->low && number <= c->high) return c->scale * number + c->offset;
+    const unit *usual = unit_find(c->unit);
+
+    return (column_place){c, usual, here ? here : usual, field};
+}
+
+void column_places(column_place *out, const column *columns, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = (column_place){0};
+        if (columns[i].name) out[i] = column_place_at(&columns[i], NULL, (size_t)columns[i].field);
+    }
+}
+
+static void copy_part(char *out, const char *begin, const char *end)
+{
+    while (begin < end && isspace((unsigned char)*begin)) begin++;
+    while (end > begin && isspace((unsigned char)end[-1])) end--;
+    memcpy(out, begin, (size_t)(end - begin));
+    out[end - begin] = '\0';
+}
+
+bool column_header_split(const char *field, size_t size, char *out_name, char *out_unit)
+{
+    const char *open = strpbrk(field, "[("), *end = field + strlen(field);
+
+    if (strlen(field) >= size) return false;
+    *out_unit = '\0';
+    if (open) {
+        const char *close = strchr(open, *open == '[' ? ']' : ')');
+        if (!close) return false;
+        copy_part(out_unit, open + 1, close);
+        end = open;
+    }
+    copy_part(out_name, field, end);
+    return *out_name != '\0';
+}
+
+static bool is_filler(char c)
+{
+    return c == ' ' || c == '-' || c == '_';
+}
+
+/* Whether a name is what stands before the next bar. */
+static bool is_same(const char *name, const char *known)
+{
+    for (;; name++, known++) {
+        while (is_filler(*name)) name++;
+        while (is_filler(*known)) known++;
+        if (*known == '|') return !*name;
+        if (tolower((unsigned char)*name) != tolower((unsigned char)*known)) return false;
+    }
+}
+
+bool column_is_named(const char *name, const char *names)
+{
+    for (const char *bar = strchr(names, '|'); bar && bar[1]; bar = strchr(bar + 1, '|'))
+        if (is_same(name, bar + 1)) return true;
+    return false;
+}
+
+double column_value(const column_place *place, double number, const record_file *file,
+                    column_gaps *gaps)
+{
+    const column *c = place->column;
+
+    if (!c || (c->is_missing_at_zero && number == 0.0)) return NAN;
+    const unit *usual = place->usual;
+    const double value = place->unit->scale * number + place->unit->offset;
+    const double low = usual->scale * c->low + usual->offset;
+    const double high = usual->scale * c->high + usual->offset;
+    const double slack = 1e-9 * (high - low);
+    if (value >= low - slack && value <= high + slack) return value;
     if (!is_flag(number) && gaps->count++ == 0)
         snprintf(gaps->first, sizeof gaps->first, "line %d: %s from %g to %g %s, not %g",
-                 record_file_line(file), c->name, c->low, c->high, c->unit, number);
+                 record_file_line(file), c->name, (low - place->unit->offset) / place->unit->scale,
+                 (high - place->unit->offset) / place->unit->scale, place->unit->name, number);
     return NAN;
 }
 
-status column_read(double *out, const column *c, const char *text, const record_file *file,
-                   column_gaps *gaps)
+status column_read(double *out, const column_place *place, const char *text,
+                   const record_file *file, column_gaps *gaps)
 {
     double number;
 
     *out = NAN;
-    if (column_is_blank(text)) return STATUS_OK;
+    if (!place->column || column_is_blank(text)) return STATUS_OK;
     if (!number_read_list(text, 1, &number))
-        return record_file_reject(file, "%s in %s, not '%.40s'", c->name, c->unit, text);
-    *out = column_value(c, number, file, gaps);
+        return record_file_reject(file, "%s in %s, not '%.40s'", place->column->name,
+                                  place->unit->name, text);
+    *out = column_value(place, number, file, gaps);
     return STATUS_OK;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/interrupt.h"
 #include "base/number.h"
+#include "files/text_encoding.h"
 #include "meshio/cancel.h"
 #include "meshio/input_file.h"
 
@@ -36,6 +37,7 @@ static status read_whole(record_file *file)
     NEED(input_file_read(&file->text, &size, file->path, INPUT_FILE_TEXT_LIMIT, message,
                          sizeof message) == 0,
          STATUS_FILE, "%s", message);
+    TRY(text_encoding_unify(&file->text, &size));
     file->is_whole = size == 0 || file->text[size - 1] == '\n';
     NEED(strlen(file->text) == size, STATUS_FILE, "%s: is binary, expected text", file->path);
 out:
@@ -51,7 +53,7 @@ status record_file_open(record_file **out, const char *path)
     file->path = strdup(path);
     NEED(file->path, STATUS_MEMORY, "%s: no memory to read it", path);
     TRY(read_whole(file));
-    file->next = file->text + (record_text_begin(file->text) - file->text);
+    file->next = file->text;
     file->next_line = 1;
     file->taken = "";
     *out = file;

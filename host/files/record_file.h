@@ -10,8 +10,7 @@
 
 typedef struct record_file record_file;
 
-/* Reads the whole file; CR LF ends a line too, and the byte order mark of UTF-8 is passed over. Fails
- * with STATUS_FILE if it cannot be opened (input_file.h), or holds a zero byte (a binary file). */
+/* Reads the whole file, as UTF-8 with line feeds whatever it was (text_encoding.h). Fails with STATUS_FILE if it cannot be opened (input_file.h), or holds a zero byte (a binary file). */
 status record_file_open(record_file **out, const char *path);
 void record_file_free(record_file *file);
 

@@ -137,13 +137,12 @@ static void level_days(double *light, const course *c)
 {
     int from = 0;
 
-    for (int i = 1; i < WEATHER_RECORDS; i++) {
-        const bool is_end = i + 1 == WEATHER_RECORDS ||
-                            (c->height[i] < c->height[i - 1] && c->height[i] <= c->height[i + 1]);
-        if (!is_end) continue;
+    for (int i = 1; i + 1 < WEATHER_RECORDS; i++) {
+        if (!(c->height[i] < c->height[i - 1] && c->height[i] <= c->height[i + 1])) continue;
         level_day(light, c, from, i);
         from = i + 1;
     }
+    level_day(light, c, from, WEATHER_RECORDS - 1);
 }
 
 status light_course(double *out_w_m2, const weather_cells *cells, const site *place, int quantity,

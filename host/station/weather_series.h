@@ -24,6 +24,7 @@ enum {
 /* What came down in a span of time, and the air at its end; not-a-number where it is missing. */
 typedef struct weather_sample {
     double end_s; /* UTC since 1970 */
+    int year;     /* as its row states it, where a file has years by month and day; else 0 */
     double value[WEATHER_SERIES_COUNT];
 } weather_sample;
 

@@ -3,7 +3,6 @@
 #include "base/number.h"
 #include "files/column.h"
 #include "files/record_file.h"
-#include "kernels/constants.h"
 #include "station/weather_series.h"
 
 #include <ctype.h>
@@ -12,26 +11,25 @@
 #include <string.h>
 #include <time.h>
 
-#define KELVIN ((double)ZERO_CELSIUS_K)
-
 enum { NUMBERS = 48, SOLRAD_NUMBERS = 22, MADISON_NUMBERS = 31, BAD = 1 };
 
 /* The flag of a value stands behind it. */
 static const column columns[WEATHER_SERIES_COUNT] = {
-    [WEATHER_SERIES_GLOBAL_W_M2] = {"global irradiance", "W/m2", 8, -50, 1800, 1, 0, false},
-    [WEATHER_SERIES_DIRECT_W_M2] = {"direct sun", "W/m2", 12, -50, 1500, 1, 0, false},
-    [WEATHER_SERIES_DIFFUSE_W_M2] = {"diffuse light", "W/m2", 14, -50, 1500, 1, 0, false},
-    [WEATHER_SERIES_LONGWAVE_W_M2] = {"longwave", "W/m2", 16, 10, 1000, 1, 0, false},
-    [WEATHER_SERIES_AIR_K] = {"air temperature", "C", 38, -90, 60, 1, KELVIN, false},
-    [WEATHER_SERIES_HUMIDITY] = {"relative humidity", "%", 40, 0, 110, 0.01, 0, false},
-    [WEATHER_SERIES_WIND_M_S] = {"wind speed", "m/s", 42, 0, 100, 1, 0, false},
-    [WEATHER_SERIES_PRESSURE_PA] = {"pressure", "mbar", 46, 300, 1100, 100, 0, false},
+    [WEATHER_SERIES_GLOBAL_W_M2] = {"global irradiance", "W/m2", 8, -50, 1800, false},
+    [WEATHER_SERIES_DIRECT_W_M2] = {"direct sun", "W/m2", 12, -50, 1500, false},
+    [WEATHER_SERIES_DIFFUSE_W_M2] = {"diffuse light", "W/m2", 14, -50, 1500, false},
+    [WEATHER_SERIES_LONGWAVE_W_M2] = {"longwave", "W/m2", 16, 10, 1000, false},
+    [WEATHER_SERIES_AIR_K] = {"air temperature", "C", 38, -90, 60, false},
+    [WEATHER_SERIES_HUMIDITY] = {"relative humidity", "%", 40, 0, 110, false},
+    [WEATHER_SERIES_WIND_M_S] = {"wind speed", "m/s", 42, 0, 100, false},
+    [WEATHER_SERIES_PRESSURE_PA] = {"pressure", "mbar", 46, 300, 1100, false},
 };
 
 typedef struct surfrad {
     weather_series series;
     size_t room;
     record_file *file;
+    column_place place[WEATHER_SERIES_COUNT];
     column_gaps gaps;
 } surfrad;
 
@@ -104,10 +102,10 @@ out:
 static void take_values(surfrad *s, const double number[NUMBERS], weather_sample *out)
 {
     for (int q = 0; q < WEATHER_SERIES_COUNT; q++) {
-        const column *c = &columns[q];
+        const column_place *p = &s->place[q];
         out->value[q] = NAN;
-        if (!c->name || number[c->field + 1] == BAD) continue;
-        out->value[q] = column_value(c, number[c->field], s->file, &s->gaps);
+        if (!p->column || number[p->field + 1] == BAD) continue;
+        out->value[q] = column_value(p, number[p->field], s->file, &s->gaps);
     }
 }
 
@@ -115,7 +113,7 @@ static status read_row(surfrad *s)
 {
     status rc = STATUS_OK;
     double number[NUMBERS];
-    weather_sample sample;
+    weather_sample sample = {0};
     const char *text;
 
     TRY(record_file_text(s->file, &text, "a row of a day"));
@@ -157,6 +155,7 @@ status weather_surfrad_read(weather **out, const char *path, const site *place)
     status rc = STATUS_OK;
     surfrad s = {.series = {.path = path, .utc_offset_h = NAN}};
 
+    column_places(s.place, columns, WEATHER_SERIES_COUNT);
     TRY(record_file_open(&s.file, path));
     do {
         TRY(read_heading(&s));

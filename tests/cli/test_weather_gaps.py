@@ -190,6 +190,29 @@ def test_29_february_of_a_file_that_has_it_is_taken(program, tmp_path):
     assert other[48][AIR] == 28 and other[96 + 48][AIR] == 1
 
 
+def two_years(first, second):
+    rows = [epw_text(first=(year, 6, 21), change={(day, hour): {"air": air} for day in DAYS for hour in HOURS})
+            for year, air in ((first, 10), (second, 20))]
+    return rows[0] + "\r\n".join(rows[1].split("\r\n")[8:])
+
+
+@pytest.mark.parametrize("year, air", [(1991, 10), (1992, 20)])
+def test_of_several_years_that_of_the_scene_is_taken(program, tmp_path, year, air):
+    rows, _ = of_epw(program, tmp_path, two_years(1991, 1992), time=f"{year}-06-23T15:00:00-04:00")
+
+    assert rows[:, AIR] == pytest.approx(air)
+
+
+def test_several_years_without_the_scene_s_are_refused_with_their_list(program, tmp_path):
+    (tmp_path / "year.epw").write_text(two_years(2001, 1992))
+
+    done = check(program, tmp_path, "year.epw", time="2024-06-23T15:00:00-04:00")
+
+    assert done.returncode == 1
+    assert "year.epw: has several years of the scene's day" in done.stderr
+    assert "in one of them: 1992 2001" in done.stderr
+
+
 # 28 September at 40 N, 105 W: the sun rises at 5:57 standard time, so the hour that ends at 6 has its
 # last minutes alone.
 SPIKE = {"latitude_deg": 40.0, "longitude_deg": -105.0, "time": "2023-09-28T12:00:00-07:00"}
