@@ -57,29 +57,37 @@ static const char *copy_field(char **out, const char *at, char separator)
     return end;
 }
 
-status csv_row_take(csv_row *row, record_file *file, char separator, const char *expected)
+status csv_row_split(csv_row *row, const char *line, char separator)
 {
     status rc = STATUS_OK;
-    const char *at;
+    const size_t size = strlen(line) + 2;
     char *end;
 
-    TRY(record_file_text(file, &at, expected));
-    const size_t size = strlen(at) + 2;
     if (size > row->size) {
         NEED(array_resize(&row->text, size, 1), STATUS_MEMORY, "no memory for a line");
         row->size = size;
     }
     row->count = 0;
     end = row->text;
-    for (;;) {
+    for (;; line++) {
         NEED(array_add(&row->field, row->count, sizeof *row->field), STATUS_MEMORY,
              "no memory for the fields of a line");
         row->field[row->count++] = end;
-        at = copy_field(&end, at, separator);
-        if (!*at) break;
-        at++;
+        line = copy_field(&end, line, separator);
+        if (!*line) break;
     }
     while (row->count > 0 && !*row->field[row->count - 1]) row->count--;
+out:
+    return rc;
+}
+
+status csv_row_take(csv_row *row, record_file *file, char separator, const char *expected)
+{
+    status rc = STATUS_OK;
+    const char *line;
+
+    TRY(record_file_text(file, &line, expected));
+    TRY(csv_row_split(row, line, separator));
 out:
     return rc;
 }

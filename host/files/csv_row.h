@@ -26,6 +26,9 @@ char csv_separator(const char *line);
  * Fails as record_file_text does, and with STATUS_MEMORY. */
 status csv_row_take(csv_row *row, record_file *file, char separator, const char *expected);
 
+/* The same of a line of text without its end. */
+status csv_row_split(csv_row *row, const char *line, char separator);
+
 /* The field at a place, "" behind the last. */
 const char *csv_row_field(const csv_row *row, size_t place);
 

@@ -5,9 +5,10 @@
 #include "sky/site.h"
 #include "weather/weather.h"
 
-/* Reads .epw (weather_epw.h), .dat (SURFRAD, weather_surfrad.h), or else what weather_read reads.
- * The first two know their place and date, and are refused or warned about where they do not fit.
- * */
+/* Reads by the ending of the name: .epw (weather_epw.h), .dat (SURFRAD, weather_surfrad.h), .csv with dates
+ * (dated_table.h) or with hours (weather_table.h; global irradiance alone is split, table_light.h), .wth. The
+ * first three know their date, and their place mostly, and are refused or warned about where they do not fit.
+ * Fails with STATUS_FORMAT for other endings. */
 status weather_history_read(weather **out, const char *path, const site *place);
 
 #endif

@@ -71,3 +71,17 @@ def surfrad_text(*days, value=None, longitude="77.67", step_min=3):
                          f"{p} {v.get('flag', 0) if k == 17 else 0}" for k, p in enumerate(pairs))
                      + "\n")
     return text
+
+
+def height(utc, place=(43.1, -77.7)):
+    """Sine of the sun's height: Cooper's declination, no equation of time."""
+    day = utc.timetuple().tm_yday
+    declination = np.radians(23.45) * np.sin(np.radians(360 / 365 * (284 + day)))
+    hour = np.radians(15 * (utc.hour + utc.minute / 60 + place[1] / 15 - 12))
+    latitude = np.radians(place[0])
+    return np.sin(latitude) * np.sin(declination) + np.cos(latitude) * np.cos(declination) * np.cos(hour)
+
+
+def light(utc, place=(43.1, -77.7)):
+    up = height(utc, place)
+    return {"direct": round(900 * up**0.3) if up > 0 else 0, "diffuse": round(100 * up**0.5) if up > 0 else 0}
