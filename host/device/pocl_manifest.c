@@ -124,7 +124,6 @@ static bool open_manifest(manifest *m, const char *folder)
     file = path_of(path, folder) ? fopen(path, "rb") : NULL;
     while (file && fgets(line, sizeof line, file)) add_file(m, line);
     if (file) fclose(file);
-    status_clear();
     return true;
 }
 
