@@ -1,6 +1,6 @@
 #include "base/terminal_text.h"
 
-#include "base/utf8.h"
+#include "base/utf8_text.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@ static bool is_control(uint32_t code)
 static size_t hidden_length(const unsigned char *c, size_t *out_bytes)
 {
     uint32_t code = 0;
-    const size_t length = utf8_length((const char *)c, &code);
+    const size_t length = utf8_text_character((const char *)c, &code);
 
     *out_bytes = length > 0 ? length : 1;
     return length == 0 || is_control(code) ? *out_bytes : 0;

@@ -38,14 +38,6 @@ column_place column_place_at(const column *c, const unit *here, size_t field);
  *   out   shape (count): in the order of the columns */
 void column_places(column_place *out, const column *columns, size_t count);
 
-/* Splits a field of a header, `name [unit]`, `name (unit)` or `name`, into its name and its unit ("": not
- * stated), blanks around them removed. False where it is longer than `size` or has no name. */
-bool column_header_split(const char *field, size_t size, char *out_name, char *out_unit);
-
-/* Whether a name is one of those between bars, as `|temp_air|Dry-bulb|`; capitals, blanks, hyphens and
- * underscores do not matter. */
-bool column_is_named(const char *name, const char *names);
-
 /* Whether a field says that there is no value: blank, a word such as `NA`, `NaN`, `null` or `-`. */
 bool column_is_blank(const char *text);
 

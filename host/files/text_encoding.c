@@ -1,6 +1,6 @@
 #include "files/text_encoding.h"
 
-#include "base/utf8.h"
+#include "base/utf8_text.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -13,6 +13,17 @@ static const uint16_t windows[32] = {
     0x2039, 0x0152, 0,      0x017d, 0,      0,      0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
     0x2013, 0x2014, 0x02dc, 0x2122, 0x0161, 0x203a, 0x0153, 0,      0x017e, 0x0178,
 };
+
+/* Writes a character of a code up to 0x10ffff; returns how many bytes, at most four. */
+static size_t write_character(char *out, uint32_t code)
+{
+    static const uint32_t first[] = {0, 0, 0xc0, 0xe0, 0xf0};
+    const size_t length = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+
+    for (size_t i = length; i-- > 1; code >>= 6) out[i] = (char)(0x80 | (code & 0x3f));
+    out[0] = (char)(first[length] | code);
+    return length;
+}
 
 static uint32_t latin_code(unsigned char byte)
 {
@@ -30,9 +41,9 @@ static status from_latin(char **text, size_t *size)
     NEED(made, STATUS_MEMORY, "no memory for a text of %zu bytes", *size);
     for (const char *c = *text, *end = c + *size; c < end;) {
         uint32_t code;
-        const size_t length = utf8_length(c, &code);
+        const size_t length = utf8_text_character(c, &code);
         if (length > 0) memcpy(made + n, c, length);
-        n += length > 0 ? length : utf8_write(made + n, latin_code((unsigned char)*c));
+        n += length > 0 ? length : write_character(made + n, latin_code((unsigned char)*c));
         c += length > 0 ? length : 1;
     }
     made[n] = '\0';
@@ -65,7 +76,7 @@ static status from_utf16(char **text, size_t *size, bool is_big)
         } else if (code >> 11 == 0x1b) {
             code = 0xfffd;
         }
-        n += utf8_write(made + n, code);
+        n += write_character(made + n, code);
     }
     made[n] = '\0';
     free(*text);
@@ -75,25 +86,13 @@ out:
     return rc;
 }
 
-static bool is_utf8(const char *text)
-{
-    uint32_t code;
-    size_t length;
-
-    for (; *text; text += length) {
-        length = utf8_length(text, &code);
-        if (length == 0) return false;
-    }
-    return true;
-}
-
 status text_encoding_unify(char **text, size_t *size)
 {
     status rc = STATUS_OK;
 
     if (*size >= 2 && (!memcmp(*text, "\xff\xfe", 2) || !memcmp(*text, "\xfe\xff", 2)))
         TRY(from_utf16(text, size, (*text)[0] == '\xfe'));
-    if (strlen(*text) == *size && !is_utf8(*text)) TRY(from_latin(text, size));
+    if (strlen(*text) == *size && !utf8_text_is_valid(*text)) TRY(from_latin(text, size));
     if (!strncmp(*text, "\xef\xbb\xbf", 3)) {
         memmove(*text, *text + 3, *size - 2);
         *size -= 3;

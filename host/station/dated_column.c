@@ -1,5 +1,7 @@
 #include "station/dated_column.h"
 
+#include "files/heading.h"
+
 #include <stdio.h>
 
 enum { NAME_SIZE = 64 };
@@ -61,7 +63,7 @@ static const known_name common_names[] = {
 static const known_name *find(const known_name *list, size_t count, const char *name)
 {
     for (size_t i = 0; i < count; i++)
-        if (column_is_named(name, list[i].names)) return &list[i];
+        if (heading_is_named(name, list[i].names)) return &list[i];
     return NULL;
 }
 
@@ -80,7 +82,7 @@ int dated_column_find(const char *field, bool is_era5, char out_unit[64])
 
     *out_unit = '\0';
     if (!found) {
-        if (!column_header_split(field, NAME_SIZE, name, out_unit)) return -1;
+        if (!heading_split(field, NAME_SIZE, name, out_unit)) return -1;
         found = find_any(name, is_era5);
     }
     if (!found) return -1;

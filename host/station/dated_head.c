@@ -1,6 +1,7 @@
 #include "station/dated_head.h"
 
 #include "base/number.h"
+#include "files/heading.h"
 #include "station/date_text.h"
 
 #include <math.h>
@@ -18,9 +19,9 @@ static int field_named(const csv_row *row, const char *names)
     char name[NAME_SIZE], unit_text[NAME_SIZE];
 
     for (size_t i = 0; i < row->count; i++) {
-        if (column_is_named(row->field[i], names)) return (int)i;
-        if (column_header_split(row->field[i], NAME_SIZE, name, unit_text) &&
-            column_is_named(name, names))
+        if (heading_is_named(row->field[i], names)) return (int)i;
+        if (heading_split(row->field[i], NAME_SIZE, name, unit_text) &&
+            heading_is_named(name, names))
             return (int)i;
     }
     return -1;

@@ -3,6 +3,7 @@
 #include "base/array.h"
 #include "files/column.h"
 #include "files/csv_row.h"
+#include "files/heading.h"
 #include "files/record_file.h"
 
 #include <math.h>
@@ -77,7 +78,7 @@ static status add_field(reader *r, size_t field)
     const char *text = r->fields.field[field];
     char name[FIELD_SIZE], unit_text[FIELD_SIZE];
 
-    if (!column_header_split(text, FIELD_SIZE, name, unit_text) || !*unit_text)
+    if (!heading_split(text, FIELD_SIZE, name, unit_text) || !*unit_text)
         TRY(record_file_reject(r->file, "columns as name [unit], not '%.60s'", text));
     const int c = find_column(name);
     if (c < 0)
