@@ -3,14 +3,12 @@
 #include "base/number.h"
 #include "station/date_text.h"
 #include "station/dated_head.h"
+#include "station/nearest_place.h"
 #include "station/weather_year.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#define RADIAN (M_PI / 180.0)
-#define SAME_PLACE 1e-6 /* of a degree, squared */
 
 typedef struct table {
     const site *place;
@@ -21,8 +19,7 @@ typedef struct table {
     csv_row row;
     column_gaps gaps;
     weather_year year;
-    double nearest; /* place of rows, from the site: squares of degrees; infinite: none yet */
-    bool has_many_places;
+    nearest_place nearest;
 } table;
 
 status dated_table_is(bool *out, const char *path)
@@ -86,7 +83,7 @@ out:
     return rc;
 }
 
-/* Whether the row is of the place that is nearest to the site; a nearer one takes the place of what was read. */
+/* Whether the row is of the place that is nearest to the site. */
 static status take_place(table *t, bool *out_is_kept)
 {
     status rc = STATUS_OK;
@@ -99,17 +96,7 @@ static status take_place(table *t, bool *out_is_kept)
         !number_read(csv_row_field(&t->row, (size_t)f->longitude), &where[1]) ||
         fabs(where[0]) > 90.0 || fabs(where[1]) > 360.0)
         TRY(record_file_reject(t->file, "a latitude and a longitude"));
-    const double north = where[0] - t->place->latitude_deg;
-    const double east =
-        remainder(where[1] - t->place->longitude_deg, 360.0) * cos(RADIAN * t->place->latitude_deg);
-    const double distance = north * north + east * east;
-    *out_is_kept = distance <= t->nearest + SAME_PLACE;
-    t->has_many_places |= isfinite(t->nearest) && fabs(distance - t->nearest) > SAME_PLACE;
-    if (distance >= t->nearest - SAME_PLACE) return STATUS_OK;
-    t->nearest = distance;
-    t->series.count = 0;
-    t->series.latitude_deg = where[0];
-    t->series.longitude_deg = remainder(where[1], 360.0);
+    *out_is_kept = nearest_place_take(&t->nearest, &t->series, where[0], where[1]);
 out:
     return rc;
 }
@@ -250,7 +237,7 @@ static void open_series(table *t)
 status dated_table_read(weather **out, const char *path, const site *place)
 {
     status rc = STATUS_OK;
-    table t = {.place = place, .series = {.path = path}, .nearest = INFINITY};
+    table t = {.place = place, .series = {.path = path}, .nearest = nearest_place_of(place)};
 
     TRY(record_file_open(&t.file, path));
     TRY(dated_head_read(&t.head, t.file));
@@ -259,9 +246,7 @@ status dated_table_read(weather **out, const char *path, const site *place)
     column_gaps_tell(&t.gaps, path);
     TRY(weather_year_fit(&t.year, &t.series, &t.room));
     TRY(set_spans(&t));
-    if (t.has_many_places)
-        status_warn("%s: has several places: that at latitude %.4g, longitude %.4g is the nearest",
-                    path, t.series.latitude_deg, t.series.longitude_deg);
+    nearest_place_tell(&t.nearest, &t.series);
     TRY(weather_series_history(out, &t.series, place));
 out:
     weather_series_free(&t.series);

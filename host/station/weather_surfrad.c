@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "files/column.h"
 #include "files/record_file.h"
+#include "station/nearest_place.h"
 #include "station/weather_series.h"
 
 #include <ctype.h>
@@ -31,6 +32,8 @@ typedef struct surfrad {
     record_file *file;
     column_place place[WEATHER_SERIES_COUNT];
     column_gaps gaps;
+    nearest_place nearest;
+    bool is_kept; /* the rows behind the last heading */
 } surfrad;
 
 /* A station's name, then latitude, longitude, elevation. */
@@ -39,24 +42,22 @@ static status read_heading(surfrad *s)
     status rc = STATUS_OK;
     static const char expected[] = "latitude, longitude and elevation of the station";
     double where[3]; /* latitude, longitude, elevation */
+    char name[sizeof s->series.name];
     const char *text;
 
     TRY(record_file_text(s->file, &text, "a station's name"));
-    snprintf(s->series.name, sizeof s->series.name, "%s", text);
+    snprintf(name, sizeof name, "%s", text);
     TRY(record_file_text(s->file, &text, expected));
     const char *end = text;
     for (int i = 0; end && i < 3; i++) end = number_take(end + strspn(end, " \t"), &where[i]);
     if (!end || (*end && !isspace((unsigned char)*end)) || fabs(where[0]) > 90.0 ||
         fabs(where[1]) > 180.0)
         TRY(record_file_reject(s->file, "%s", expected));
-    const double latitude_deg = where[0];
-    const double longitude_deg = -fabs(where[1]); /* all stations are in America */
-    if (s->series.count > 0 &&
-        (latitude_deg != s->series.latitude_deg || longitude_deg != s->series.longitude_deg))
-        TRY(record_file_reject(s->file, "the station of the days before"));
-    s->series.latitude_deg = latitude_deg;
-    s->series.longitude_deg = longitude_deg;
+    /* All stations are in America. */
+    s->is_kept = nearest_place_take(&s->nearest, &s->series, where[0], -fabs(where[1]));
+    if (!s->is_kept) goto out;
     s->series.elevation_m = where[2];
+    memcpy(s->series.name, name, sizeof name);
 out:
     return rc;
 }
@@ -125,6 +126,7 @@ static status read_row(surfrad *s)
          s->series.path);
     if (found != NUMBERS)
         TRY(record_file_reject(s->file, "48 numbers: a time, then values and flags"));
+    if (!s->is_kept) return STATUS_OK;
     TRY(take_time(s, number, &sample.end_s));
     take_values(s, number, &sample);
     TRY(weather_series_add(&s->series, &s->room, &sample));
@@ -153,7 +155,7 @@ static bool is_row(record_file *file)
 status weather_surfrad_read(weather **out, const char *path, const site *place)
 {
     status rc = STATUS_OK;
-    surfrad s = {.series = {.path = path, .utc_offset_h = NAN}};
+    surfrad s = {.series = {.path = path, .utc_offset_h = NAN}, .nearest = nearest_place_of(place)};
 
     column_places(s.place, columns, WEATHER_SERIES_COUNT);
     TRY(record_file_open(&s.file, path));
@@ -167,6 +169,7 @@ status weather_surfrad_read(weather **out, const char *path, const site *place)
     NEED(s.series.span_s <= 900.0, STATUS_FORMAT,
          "%s: samples are %g minutes apart, expected 15 at most", path, s.series.span_s / 60.0);
     column_gaps_tell(&s.gaps, path);
+    nearest_place_tell(&s.nearest, &s.series);
     TRY(weather_series_history(out, &s.series, place));
 out:
     weather_series_free(&s.series);

@@ -149,7 +149,7 @@ def test_of_several_points_the_nearest_is_taken(program, tmp_path):
     rows, errors = read(program, tmp_path, era5_text(points, {1: {"pressure": 970.0}}))
 
     assert rows[:, PRESSURE] == pytest.approx(970.0)
-    assert "year.csv: has several places: that at latitude 43, longitude -77.75 is the nearest" in errors
+    assert "year.csv: has several places: a point at latitude 43, longitude -77.75 is the nearest" in errors
 
 
 def test_a_table_of_pvlib_s_names_with_times_and_offsets(program, tmp_path):

@@ -235,12 +235,15 @@ def test_a_surfrad_day_of_another_date_is_refused(program, tmp_path):
     assert "the scene's day begins at 1992-06-23T04:00:00" in done.stderr
 
 
-def test_days_of_two_stations_do_not_mix(program, tmp_path):
-    (tmp_path / "roc.dat").write_text(surfrad_text(22) + surfrad_text(23, longitude="88.37"))
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+def test_of_days_of_two_stations_the_nearest_are_taken(program, tmp_path, order):
+    stations = [surfrad_text(22, 23, 24, value=lambda now: {"air": 15.0}),
+                surfrad_text(22, 23, 24, value=lambda now: {"air": 25.0}, longitude="88.37")]
+    (tmp_path / "roc.dat").write_text("".join(stations[i] for i in order))
+    rows, errors = history(program, tmp_path, "roc.dat")
 
-    done = check(program, tmp_path, "roc.dat")
-
-    assert done.returncode == 1 and "the station of the days before" in done.stderr
+    assert rows[:, AIR] == pytest.approx(15.0)
+    assert "roc.dat: has several places: Rochester at latitude 43.08, longitude -77.67 is the nearest" in errors
 
 
 def test_radsig_thermal_takes_them_too(program, tmp_path):
