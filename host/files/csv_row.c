@@ -57,6 +57,16 @@ static const char *copy_field(char **out, const char *at, char separator)
     return end;
 }
 
+/* Makes 20,5 the number that it is where semicolons separate. */
+static void set_decimal_point(char *field)
+{
+    const size_t sign = strspn(field, "+-"), whole = strspn(field + sign, "0123456789");
+    char *comma = field + sign + whole;
+
+    if (sign > 1 || whole == 0 || *comma != ',') return;
+    if (comma[1] && comma[1 + strspn(comma + 1, "0123456789")] == '\0') *comma = '.';
+}
+
 status csv_row_split(csv_row *row, const char *line, char separator)
 {
     status rc = STATUS_OK;
@@ -77,6 +87,7 @@ status csv_row_split(csv_row *row, const char *line, char separator)
         if (!*line) break;
     }
     while (row->count > 0 && !*row->field[row->count - 1]) row->count--;
+    for (size_t i = 0; i < row->count && separator == ';'; i++) set_decimal_point(row->field[i]);
 out:
     return rc;
 }

@@ -21,7 +21,7 @@ char csv_separator(const char *line);
 
 /* Takes the next line apart. Blanks around a field go, quotes around it too, a doubled quote inside them
  * is one; a quote that nothing closes stands for itself; empty fields at the end of the line are not
- * counted.
+ * counted. Where semicolons separate, a comma between digits is a decimal point.
  *   separator   a comma, a semicolon or a tab
  * Fails as record_file_text does, and with STATUS_MEMORY. */
 status csv_row_take(csv_row *row, record_file *file, char separator, const char *expected);

@@ -52,6 +52,13 @@ def test_layout_does_not_matter(program, tmp_path):
         assert (read(program, tmp_path, data)[0] == plain).all()
 
 
+def test_a_table_of_a_country_with_decimal_commas(program, tmp_path):
+    plain, _ = read(program, tmp_path, table(rows_of()))
+    rows = [[field.replace(".", ",") for field in row] for row in rows_of()]
+
+    assert (read(program, tmp_path, table(rows, separator=";"))[0] == plain).all()
+
+
 def test_a_suffix_in_capitals_is_the_same_suffix(program, tmp_path):
     plain, _ = read(program, tmp_path, table(rows_of()))
 

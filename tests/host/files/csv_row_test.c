@@ -30,6 +30,16 @@ static void blanks_quotes_and_empty_fields_at_the_end_go(void **state)
     assert_fields("1\t\ttwo words\t3\t\n", '\t', plain, 4);
 }
 
+static void a_decimal_comma_is_one_where_semicolons_separate(void **state)
+{
+    static const char *const numbers[] = {"20.5", "-3.25", "1,2,3", "a,b", ",5", "6,"};
+    static const char *const fields[] = {"20", "5;-3", "25"};
+
+    (void)state;
+    assert_fields("20,5;-3,25;1,2,3;a,b;,5;6,\n", ';', numbers, 6);
+    assert_fields("20,5;-3,25\n", ',', fields, 3);
+}
+
 static void a_quote_that_nothing_closes_stands_for_itself(void **state)
 {
     static const char *const inch[] = {"\"5 inch", "x"};
@@ -72,6 +82,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blanks_quotes_and_empty_fields_at_the_end_go),
+        cmocka_unit_test(a_decimal_comma_is_one_where_semicolons_separate),
         cmocka_unit_test(a_quote_that_nothing_closes_stands_for_itself),
         cmocka_unit_test(a_long_line_is_taken_whole),
         cmocka_unit_test(the_separator_is_what_stands_there_most),
