@@ -9,7 +9,7 @@ static void the_diffuse_fraction_is_erbs(void **state)
 {
     (void)state;
     assert_near(light_split_diffuse_fraction(0.0), 1.0, 0.0);
-    assert_near(light_split_diffuse_fraction(0.2), 0.982, 1e-12);  /* 1 - 0.09 k */
+    assert_near(light_split_diffuse_fraction(0.2), 0.982, 1e-12);   /* 1 - 0.09 k */
     assert_near(light_split_diffuse_fraction(0.5), 0.65915, 1e-12); /* by hand */
     assert_near(light_split_diffuse_fraction(0.9), 0.165, 0.0);
     /* The pieces of the fit meet to its three digits. */
