@@ -37,5 +37,5 @@ bool light_split_complete(const sun_span *sun, double global_w_m2, double *direc
     const double clearness = sun->beyond_w_m2 > 0.0 ? global / sun->beyond_w_m2 : 0.0;
     *direct_w_m2 = beam(sun, global * (1.0 - light_split_diffuse_fraction(clearness)));
     *diffuse_w_m2 = fmax(0.0, global - *direct_w_m2 * sun->cos_zenith);
-    return true;
+    return global > 0.0;
 }

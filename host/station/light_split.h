@@ -16,7 +16,7 @@ double light_split_diffuse_fraction(double clearness);
  *                       clear sky's, where the sun is low
  *   global alone        the fraction above; the beam again at most 1.1 of the clear sky's, the rest
  *                       is diffuse
- * Nothing is set where less is known. Returns true if the fraction was used. */
+ * Nothing is set where less is known. Returns true if the fraction was used, and on some light. */
 bool light_split_complete(const sun_span *sun, double global_w_m2, double *direct_w_m2,
                           double *diffuse_w_m2);
 

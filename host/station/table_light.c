@@ -17,10 +17,10 @@ void table_light_split(weather_table *table, const site *place, const char *path
         if (!table->is_global[i]) continue;
         const sun_span sun = sun_span_at(place, time_s - half_s, time_s + half_s);
         if (sun.beyond_w_m2 <= 0.0) continue; /* stays what it is: the clock is checked elsewhere */
-        light_split_complete(&sun, r->diffuse_w_m2, &direct, &diffuse);
+        if (light_split_complete(&sun, r->diffuse_w_m2, &direct, &diffuse))
+            hours += w->interval_s / 3600.0;
         r->direct_w_m2 = direct;
         r->diffuse_w_m2 = diffuse;
-        hours += w->interval_s / 3600.0;
     }
     if (hours > 0.0)
         status_warn(
