@@ -241,7 +241,8 @@ test: test-deps all $(HOST_TESTS) $(BUILD)/exact-rays $(ATMOSPHERE_AT_HAND)
 # conversions of floats that fit no integer as undefined.
 SANITIZERS := address,undefined,float-cast-overflow
 SANITIZED_TESTS := $(addprefix tests/cli/test_,bands.py check.py formats.py probe.py render_files.py \
-	sensor.py times.py trace.py usage.py validate.py weather_station.py)
+	sensor.py times.py trace.py usage.py validate.py weather_clock.py weather_dated.py weather_gaps.py weather_station.py \
+	weather_table.py)
 
 ## test-sanitizers: the tests in C and some of the programs', with AddressSanitizer and UBSan
 test-sanitizers:
