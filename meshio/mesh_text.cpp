@@ -64,6 +64,7 @@ mesh_text::mesh_text(std::string path, std::string_view text, std::size_t begin,
 {
     if (!begin && text.substr(0, 3) == "\xef\xbb\xbf")
         position_ = 3; /* the byte order mark of UTF-8 */
+    text_ = text_.substr(0, text_.find_last_not_of(mesh_text_padding) + 1);
 }
 
 bool mesh_text::next(std::string_view &line)
