@@ -7,28 +7,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The layout of a file, which is opened again. */
+/* The layout of a file, which is opened again. What is none, such as an archive's answer that there is no
+ * sounding, is told by its first line. */
 static status find_layout(const sonde_layout **out, const char *path)
 {
     status rc = STATUS_OK;
     record_file *file = NULL;
-    const char *text = "";
-    bool is_csv;
+    const char *text = "", *first;
 
     TRY(record_file_open(&file, path));
-    *out = &sonde_igra;
     TRY(record_file_text(file, &text, "a sounding"));
+    *out = &sonde_igra;
     if (sonde_igra_is_head(text)) goto out;
     while (*text == '#') TRY(record_file_text(file, &text, "a sounding"));
-    is_csv = strpbrk(text, ",;\t") != NULL;
+    first = text;
+    const int line = record_file_line(file);
     *out = &sonde_wyoming;
-    while (!sonde_wyoming_is_head(text)) {
-        if (is_csv && record_file_at_end(file)) *out = &sonde_csv;
-        if (is_csv && record_file_at_end(file)) break;
-        TRY(record_file_text(file, &text,
-                             "the head PRES HGHT TEMP DWPT of the University of Wyoming's layout, "
-                             "CSV, or IGRA 2"));
-    }
+    while (!sonde_wyoming_is_head(text) && !record_file_at_end(file))
+        TRY(record_file_text(file, &text, "a sounding"));
+    if (sonde_wyoming_is_head(text)) goto out;
+    *out = &sonde_csv;
+    NEED(strpbrk(first, ",;\t"), STATUS_FORMAT,
+         "%s:%d: found '%.100s', expected the head PRES HGHT TEMP DWPT of the University of "
+         "Wyoming's layout, CSV, or IGRA 2",
+         path, line, first);
 out:
     record_file_free(file);
     return rc;

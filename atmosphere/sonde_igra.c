@@ -78,6 +78,9 @@ static status read_level(sonde_builder *builder, const char *text, const record_
     double value[SONDE_QUANTITIES];
     int number;
 
+    /* Two digits tell what kind of level it is; the archive's derived soundings have none. */
+    if (text[0] < '1' || text[0] > '3' || !isdigit((unsigned char)text[1]))
+        return record_file_reject(file, "a level in the columns of IGRA 2");
     for (int q = 0; q < SONDE_QUANTITIES; q++) value[q] = (double)NAN;
     for (int i = 0; i < FIELDS; i++) {
         if (!take(text, fields[i].begin, fields[i].width, &number))

@@ -194,7 +194,9 @@ def test_of_several_stations_the_nearest_is_taken(levels_of):
     (csv(levels=LEVELS[::-1]), "sounding:3"),
     (igra().replace("  -150", "  -15x"), "a level in the columns of IGRA 2"),
     (igra()[:300], "a level"),
+    (igra().replace("\n21 -", "\n   -"), "a level in the columns of IGRA 2"),
     ("", "the file ends"),
+    ("Unable to retrieve the data for ABC.\n", "sounding:1: found 'Unable to retrieve the data for ABC.', expected the head PRES HGHT TEMP DWPT"),
 ])
 def test_a_sounding_that_cannot_be_told_is_refused_with_the_reason(levels_of, text, expected):
     assert expected in levels_of(text, code=1)
