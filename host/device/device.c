@@ -3,7 +3,6 @@
 
 #include "base/interrupt.h"
 #include "device/device_error.h"
-#include "device/kernel_ahead.h"
 #include "device/kernel_program.h"
 #include "device/pocl_cache.h"
 #include "device/pocl_manifest.h"
@@ -40,10 +39,8 @@ struct device {
     device_time times[KERNEL_COUNT];
     device_launch_event pending[PENDING_LIMIT];
     size_t pending_count;
-    double pending_s;      /* what they are expected to take */
-    uint64_t key;          /* of the kernels in PoCL's cache */
-    bool is_pocl, is_cold; /* cold: the cache does not have them yet */
-    kernel_ahead *ahead;
+    double pending_s; /* what they are expected to take */
+    bool is_pocl;
 };
 
 status device_open(device **out, int index)
@@ -59,10 +56,8 @@ status device_open(device **out, int index)
          device_error(error));
     dev->queue = clCreateCommandQueue(dev->context, dev->id, CL_QUEUE_PROFILING_ENABLE, &error);
     NEED(dev->queue, STATUS_DEVICE, "device %s: no queue: %s", dev->info.name, device_error(error));
-    dev->key = kernel_program_key(&dev->info);
     dev->is_pocl = strstr(dev->info.platform, "Portable Computing Language") != NULL;
     if (dev->is_pocl) pocl_manifest_check(pocl_cache_folder());
-    dev->is_cold = dev->is_pocl && !pocl_cache_has(dev->key);
     for (size_t i = 0; i < KERNEL_COUNT; i++) dev->times[i].kernel = device_kernels[i].name;
     *out = dev;
     dev = NULL;
@@ -115,7 +110,6 @@ void device_free(device *dev)
 {
     if (!dev) return;
     if (dev->queue) collect_times(dev);
-    if (kernel_ahead_free(dev->ahead)) pocl_cache_note(dev->key);
     if (dev->is_pocl) pocl_manifest_update(pocl_cache_folder());
     for (size_t i = 0; i < KERNEL_COUNT; i++) {
         if (!dev->kernels[i].kernel) continue;
@@ -231,7 +225,6 @@ status device_prepare(device *dev, size_t kernel)
 
     if (dev->kernels[kernel].kernel) return STATUS_OK;
     TRY(interrupt_check());
-    if (dev->ahead) kernel_ahead_take(dev->ahead, kernel);
     TRY(kernel_program_build(&program, dev->context, dev->id, &dev->info,
                              device_kernels[kernel].name));
     dev->kernels[kernel].kernel = clCreateKernel(program, device_kernels[kernel].name, &error);
@@ -242,17 +235,6 @@ status device_prepare(device *dev, size_t kernel)
 out:
     if (program) clReleaseProgram(program);
     return rc;
-}
-
-bool device_build_ahead(device *dev, const size_t *kernels, size_t count)
-{
-    if (!dev->is_cold) return false;
-    if (!dev->ahead && kernel_ahead_open(&dev->ahead, dev->id, &dev->info) != STATUS_OK) {
-        status_clear();
-        return false;
-    }
-    kernel_ahead_add(dev->ahead, kernels, count);
-    return true;
 }
 
 static status set_arguments(device *dev, size_t kernel, const char *arguments)

@@ -130,10 +130,6 @@ extern const device_kernel device_kernels[];
 /* Builds a kernel before its first launch, so that it need not be waited for there. */
 status device_prepare(device *dev, size_t kernel);
 
-/* Has kernels (KERNEL_... of launches.h), in the order in which they will be launched, built beside the
- * work of others. False where that would be in vain: PoCL's cache has them, or OpenCL is not PoCL. */
-bool device_build_ahead(device *dev, const size_t *kernels, size_t count);
-
 /* Launches a kernel over a shape; x is padded to the local size, so the kernel returns where its index
  * is past the end. A CPU takes long launches in portions along x. Waits where others would be much work,
  * so that an interrupt, with which launches and waits fail, ends within a fraction of a second. A failure

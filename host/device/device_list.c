@@ -24,6 +24,7 @@ static void describe(device_info *info, cl_platform_id platform, cl_device_id id
 {
     cl_device_type type = 0;
     cl_ulong memory = 0, allocation = 0;
+    cl_device_fp_config single = 0;
     cl_uint units = 0;
 
     memset(info, 0, sizeof *info);
@@ -34,11 +35,13 @@ static void describe(device_info *info, cl_platform_id platform, cl_device_id id
     clGetDeviceInfo(id, CL_DEVICE_MAX_COMPUTE_UNITS, sizeof units, &units, NULL);
     clGetDeviceInfo(id, CL_DEVICE_GLOBAL_MEM_SIZE, sizeof memory, &memory, NULL);
     clGetDeviceInfo(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE, sizeof allocation, &allocation, NULL);
+    clGetDeviceInfo(id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof single, &single, NULL);
     /* The CPU bit is looked at first: some CPU devices claim every type. */
     strcpy(info->type, type & CL_DEVICE_TYPE_CPU   ? "cpu"
                        : type & CL_DEVICE_TYPE_GPU ? "gpu"
                                                    : "accelerator");
     info->ray_lanes = choose_ray_lanes(info);
+    info->rounds_division = single & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
     info->compute_units = units;
     info->memory_bytes = memory;
     info->allocation_bytes = allocation;
@@ -86,15 +89,13 @@ out:
     return rc;
 }
 
-status device_list(device_info **out_info, size_t *out_count)
+/* Describes the devices that were found; the caller frees the list. */
+static status describe_all(device_info **out, const device_choice *choices, size_t count)
 {
     status rc = STATUS_OK;
-    device_choice choices[DEVICE_LIMIT];
-    device_info *info = NULL;
-    size_t count, preferred = 0;
+    size_t preferred = 0;
+    device_info *info = calloc(count, sizeof *info);
 
-    TRY(find_devices(choices, &count));
-    info = calloc(count, sizeof *info);
     NEED(info, STATUS_MEMORY, "no memory for the list of devices");
     for (size_t i = 0; i < count; i++) {
         describe(&info[i], choices[i].platform, choices[i].id);
@@ -103,8 +104,18 @@ status device_list(device_info **out_info, size_t *out_count)
     for (size_t i = count; i-- > 0;)
         if (!strcmp(info[i].type, "cpu")) preferred = i;
     info[preferred].is_default = true;
-    *out_info = info;
-    *out_count = count;
+    *out = info;
+out:
+    return rc;
+}
+
+status device_list(device_info **out_info, size_t *out_count)
+{
+    status rc = STATUS_OK;
+    device_choice choices[DEVICE_LIMIT];
+
+    TRY(find_devices(choices, out_count));
+    TRY(describe_all(out_info, choices, *out_count));
 out:
     return rc;
 }
@@ -116,8 +127,8 @@ status device_list_choose(cl_device_id *out_id, device_info *out_info, int index
     device_info *info = NULL;
     size_t count;
 
-    TRY(device_list(&info, &count));
     TRY(find_devices(choices, &count));
+    TRY(describe_all(&info, choices, count));
     NEED(index < (int)count, STATUS_ARGUMENT,
          "device %d: unknown, expected 0 to %zu (radsig devices)", index, count - 1);
     for (size_t i = 0; index < 0; i++)

@@ -18,7 +18,7 @@ typedef struct device_info {
     uint64_t memory_bytes, allocation_bytes;
     uint32_t
         ray_lanes; /* rays of a work-item: 16 on CPUs, else 1; RADSIG_RAY_LANES says otherwise */
-    bool is_default;
+    bool is_default, rounds_division; /* divisions and square roots can be rounded correctly */
 } device_info;
 
 /* Lists the devices of all platforms, in the order that `device_open` counts them.

@@ -8,11 +8,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <xxhash.h>
 
 static void write_options(char *out, size_t size, const device_info *info)
 {
-    snprintf(out, size, "-cl-std=CL1.2 -DRAY_LANES=%u", info->ray_lanes);
+    snprintf(out, size, "-cl-std=CL1.2 -DRAY_LANES=%u%s", info->ray_lanes,
+             info->rounds_division ? " -cl-fp32-correctly-rounded-divide-sqrt" : "");
 }
 
 static status build_failure(cl_program program, cl_device_id id, const device_info *info,
@@ -37,7 +37,7 @@ status kernel_program_build(cl_program *out, cl_context context, cl_device_id id
     status rc = STATUS_OK;
     cl_int error;
     cl_program program = NULL;
-    char *text = NULL, options[64];
+    char *text = NULL, options[128];
 
     TRY(kernel_source_read(&text, name));
     program = clCreateProgramWithSource(context, 1, (const char **)&text, NULL, &error);
@@ -51,20 +51,4 @@ out:
     if (program) clReleaseProgram(program);
     free(text);
     return rc;
-}
-
-uint64_t kernel_program_key(const device_info *info)
-{
-    char options[64];
-    XXH3_state_t state;
-
-    write_options(options, sizeof options, info);
-    XXH3_INITSTATE(&state);
-    XXH3_64bits_reset(&state);
-    XXH3_64bits_update(&state, options, strlen(options) + 1);
-    XXH3_64bits_update(&state, info->name, strlen(info->name) + 1);
-    XXH3_64bits_update(&state, info->version, strlen(info->version) + 1);
-    for (const kernel_file *f = kernel_files; f->name; f++)
-        XXH3_64bits_update(&state, f->text, strlen(f->text) + 1);
-    return XXH3_64bits_digest(&state);
 }

@@ -12,7 +12,4 @@ struct _cl_program;
 status kernel_program_build(struct _cl_program **out, struct _cl_context *context,
                             struct _cl_device_id *id, const device_info *info, const char *name);
 
-/* Tells the programs of all kernels for a device from those of other sources, devices and runtimes. */
-uint64_t kernel_program_key(const device_info *info);
-
 #endif

@@ -3,7 +3,6 @@
 #include "base/status.h"
 #include "files/cache_folder.h"
 
-#include <fcntl.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -91,26 +90,4 @@ const char *pocl_cache_folder(void)
 bool pocl_cache_is_usable(void)
 {
     return is_usable(folder);
-}
-
-static bool note_path(char out[CACHE_FOLDER_PATH], uint64_t key)
-{
-    return snprintf(out, CACHE_FOLDER_PATH, "%s/radsig-%016llx", folder, (unsigned long long)key) <
-           CACHE_FOLDER_PATH;
-}
-
-bool pocl_cache_has(uint64_t key)
-{
-    char path[CACHE_FOLDER_PATH];
-
-    return note_path(path, key) && access(path, F_OK) == 0;
-}
-
-void pocl_cache_note(uint64_t key)
-{
-    char path[CACHE_FOLDER_PATH];
-    const int descriptor =
-        note_path(path, key) ? open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600) : -1;
-
-    if (descriptor >= 0) close(descriptor);
 }

@@ -3,7 +3,6 @@
 #define POCL_CACHE_H
 
 #include <stdbool.h>
-#include <stdint.h>
 
 /* Has PoCL take a folder that can be written and has room, unless POCL_CACHE_DIR is set: PoCL's own
  * ($XDG_CACHE_HOME/pocl/kcache or ~/.cache/pocl/kcache), else, with a warning, radsig-UID/pocl in
@@ -14,9 +13,5 @@ void pocl_cache_choose(void);
 /* The folder, and whether PoCL can use it. */
 const char *pocl_cache_folder(void);
 bool pocl_cache_is_usable(void);
-
-/* Whether, and that, the kernels of a key (kernel_program_key) were all built into the folder. */
-bool pocl_cache_has(uint64_t key);
-void pocl_cache_note(uint64_t key);
 
 #endif

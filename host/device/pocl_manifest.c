@@ -1,11 +1,16 @@
 #include "device/pocl_manifest.h"
 
+#include "base/array.h"
+#include "base/name_table.h"
 #include "base/status.h"
+#include "files/file_name.h"
+#include "files/file_stamp.h"
 #include "files/output_file.h"
 
 #include <elf.h>
 #include <fcntl.h>
 #include <fts.h>
+#include <inttypes.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -20,27 +25,33 @@ enum { PATH_SIZE = 4096, LINE_SIZE = 512 };
 
 static const char manifest_name[] = "radsig-files";
 
-static bool ends_with(const char *text, const char *end)
-{
-    const size_t length = strlen(text), end_length = strlen(end);
+typedef struct kernel_file {
+    uint64_t hash;
+    file_stamp stamp;
+} kernel_file;
 
-    return length >= end_length && !strcmp(text + length - end_length, end);
-}
+typedef struct manifest {
+    name_table *names; /* of files in the folder, numbered as `file` */
+    kernel_file *file; /* shape (count) */
+    size_t count;
+    FILE *text;       /* the next manifest, while it is written */
+    bool has_changed; /* against the one that was read */
+} manifest;
 
 /* A shared object ends behind its table of sections, bitcode begins with a mark. */
-static bool has_form(const char *path, const void *bytes, size_t size)
+static bool has_form(const char *name, const void *bytes, size_t size)
 {
     Elf64_Ehdr head;
 
-    if (!ends_with(path, ".so")) return size > 4 && !memcmp(bytes, "BC\xc0\xde", 4);
+    if (!file_name_ends(name, ".so")) return size > 4 && !memcmp(bytes, "BC\xc0\xde", 4);
     if (size < sizeof head) return false;
     memcpy(&head, bytes, sizeof head);
     return !memcmp(head.e_ident, ELFMAG, SELFMAG) && head.e_shoff < size &&
            (size - head.e_shoff) / sizeof(Elf64_Shdr) >= head.e_shnum;
 }
 
-/* Writes the line of a file, `HASH SIZE PATH`; false where it cannot be read or lacks the form. */
-static bool describe(char out[LINE_SIZE], const char *path, const char *name)
+/* False where the file cannot be read or lacks the form. */
+static bool hash_file(uint64_t *out, const char *path, const char *name)
 {
     const int descriptor = open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
     struct stat found;
@@ -50,78 +61,121 @@ static bool describe(char out[LINE_SIZE], const char *path, const char *name)
     if (descriptor >= 0 && fstat(descriptor, &found) == 0 && found.st_size > 0)
         bytes = mmap(NULL, (size_t)found.st_size, PROT_READ, MAP_PRIVATE, descriptor, 0);
     if (bytes != MAP_FAILED) {
-        const size_t size = (size_t)found.st_size;
-        const unsigned long long hash = XXH3_64bits(bytes, size);
-        is_good = has_form(name, bytes, size) &&
-                  snprintf(out, LINE_SIZE, "%016llx %zu %s\n", hash, size, name) < LINE_SIZE;
-        munmap(bytes, size);
+        *out = XXH3_64bits(bytes, (size_t)found.st_size);
+        is_good = has_form(name, bytes, (size_t)found.st_size);
+        munmap(bytes, (size_t)found.st_size);
     }
     if (descriptor >= 0) close(descriptor);
     return is_good;
 }
 
-/* Calls `take` with every file that PoCL loads: its path, its name in the folder. */
-static void for_files(const char *folder, void (*take)(void *, const char *, const char *),
-                      void *self)
+/* Calls `visit` with every file that PoCL loads: its path, its name in the folder. */
+static void visit_files(const char *folder, void (*visit)(manifest *, const char *, const char *),
+                        manifest *m)
 {
     char *const roots[] = {(char *)folder, NULL};
     FTS *walk = fts_open(roots, FTS_PHYSICAL | FTS_NOCHDIR | FTS_NOSTAT, NULL);
 
     for (FTSENT *e; walk && (e = fts_read(walk));)
         if ((e->fts_info == FTS_F || e->fts_info == FTS_NSOK) &&
-            (ends_with(e->fts_name, ".so") || !strcmp(e->fts_name, "program.bc")))
-            take(self, e->fts_path, e->fts_path + strlen(folder) + 1);
+            (file_name_ends(e->fts_name, ".so") || !strcmp(e->fts_name, "program.bc")))
+            visit(m, e->fts_path, e->fts_path + strlen(folder) + 1);
     if (walk) fts_close(walk);
 }
 
-/* The text of the manifest; the caller frees it. NULL: there is none. */
-static char *read_manifest(const char *folder)
+static bool is_same(const file_stamp *a, const file_stamp *b)
 {
-    char path[PATH_SIZE], *text = NULL;
-    size_t room = 0;
-    FILE *file = NULL;
+    return a->size == b->size && a->changed_s == b->changed_s && a->changed_ns == b->changed_ns &&
+           a->number == b->number;
+}
 
-    if (snprintf(path, sizeof path, "%s/%s", folder, manifest_name) < (int)sizeof path)
-        file = fopen(path, "rb");
-    if (!file) return NULL;
-    if (getdelim(&text, &room, '\0', file) < 0) {
-        free(text);
-        text = NULL;
+/* Adds the file of a line, `HASH SIZE SECONDS NANOSECONDS NUMBER NAME`; others are passed over. */
+static void add_file(manifest *m, char *line)
+{
+    kernel_file f;
+    int at = 0;
+    uint32_t number;
+
+    line[strcspn(line, "\n")] = '\0';
+    if (sscanf(line, "%" SCNx64 " %" SCNd64 " %" SCNd64 " %" SCNd64 " %" SCNd64 " %n", &f.hash,
+               &f.stamp.size, &f.stamp.changed_s, &f.stamp.changed_ns, &f.stamp.number, &at) != 5 ||
+        at == 0 || !array_add(&m->file, m->count, sizeof *m->file) ||
+        name_table_number(m->names, 0, line + at, &number) != STATUS_OK || number != m->count)
+        return;
+    m->file[m->count++] = f;
+}
+
+static bool path_of(char out[PATH_SIZE], const char *folder)
+{
+    return snprintf(out, PATH_SIZE, "%s/%s", folder, manifest_name) < PATH_SIZE;
+}
+
+/* False where memory is short. A folder without a manifest has no known files. */
+static bool open_manifest(manifest *m, const char *folder)
+{
+    char path[PATH_SIZE], line[LINE_SIZE];
+    FILE *file;
+
+    *m = (manifest){0};
+    if (name_table_open(&m->names) != STATUS_OK) {
+        status_clear();
+        return false;
     }
-    fclose(file);
-    return text;
+    file = path_of(path, folder) ? fopen(path, "rb") : NULL;
+    while (file && fgets(line, sizeof line, file)) add_file(m, line);
+    if (file) fclose(file);
+    status_clear();
+    return true;
 }
 
-/* Whether the manifest has the file, with another hash or size. */
-static bool differs(const char *manifest, const char *line, const char *name)
+static void close_manifest(manifest *m)
 {
-    char end[LINE_SIZE];
-
-    snprintf(end, sizeof end, " %s\n", name);
-    return manifest && strstr(manifest, end) && !strstr(manifest, line);
+    name_table_free(m->names);
+    free(m->file);
 }
 
-static void check_file(void *self, const char *path, const char *name)
+/* The file as the manifest has it, or NULL. */
+static const kernel_file *find(const manifest *m, const char *name)
 {
-    char line[LINE_SIZE] = "";
+    uint32_t number;
 
-    if (describe(line, path, name) && !differs(self, line, name)) return;
+    return name_table_number(m->names, 0, name, &number) == STATUS_OK && number < m->count
+               ? &m->file[number]
+               : NULL;
+}
+
+static void check_file(manifest *m, const char *path, const char *name)
+{
+    const kernel_file *known = find(m, name);
+    const file_stamp stamp = file_stamp_of(path);
+    uint64_t hash;
+
+    if (known && is_same(&known->stamp, &stamp)) return;
+    if (hash_file(&hash, path, name) && !(known && known->hash != hash)) return;
     if (unlink(path) == 0) status_warn("%s: a damaged kernel of PoCL, which is built again", path);
 }
 
 void pocl_manifest_check(const char *folder)
 {
-    char *manifest = read_manifest(folder);
+    manifest m;
 
-    for_files(folder, check_file, manifest);
-    free(manifest);
+    if (open_manifest(&m, folder)) visit_files(folder, check_file, &m);
+    close_manifest(&m);
 }
 
-static void add_line(void *self, const char *path, const char *name)
+static void write_file(manifest *m, const char *path, const char *name)
 {
-    char line[LINE_SIZE];
+    const kernel_file *known = find(m, name);
+    kernel_file f = {.stamp = file_stamp_of(path)};
 
-    if (describe(line, path, name)) fputs(line, self);
+    if (known && is_same(&known->stamp, &f.stamp)) {
+        f.hash = known->hash;
+    } else {
+        if (!hash_file(&f.hash, path, name)) return;
+        m->has_changed = true;
+    }
+    fprintf(m->text, "%016" PRIx64 " %" PRId64 " %" PRId64 " %" PRId64 " %" PRId64 " %s\n", f.hash,
+            f.stamp.size, f.stamp.changed_s, f.stamp.changed_ns, f.stamp.number, name);
 }
 
 static void write_manifest(const char *folder, const char *text)
@@ -129,24 +183,22 @@ static void write_manifest(const char *folder, const char *text)
     output_file *file = NULL;
     char path[PATH_SIZE];
 
-    if (snprintf(path, sizeof path, "%s/%s", folder, manifest_name) < (int)sizeof path &&
-        output_file_open(&file, path) == STATUS_OK && fputs(text, output_file_stream(file)) >= 0)
+    if (path_of(path, folder) && output_file_open(&file, path) == STATUS_OK &&
+        fputs(text, output_file_stream(file)) >= 0)
         output_file_commit(file);
     output_file_free(file);
 }
 
 void pocl_manifest_update(const char *folder)
 {
-    char *text = NULL, *manifest = NULL;
+    char *text = NULL;
     size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
+    manifest m;
 
-    if (!stream) return;
-    for_files(folder, add_line, stream);
-    if (fclose(stream) == 0 && text) {
-        manifest = read_manifest(folder);
-        if (size > 0 && (!manifest || strcmp(manifest, text) != 0)) write_manifest(folder, text);
+    if (open_manifest(&m, folder) && (m.text = open_memstream(&text, &size))) {
+        visit_files(folder, write_file, &m);
+        if (fclose(m.text) == 0 && text && m.has_changed) write_manifest(folder, text);
     }
-    free(manifest);
     free(text);
+    close_manifest(&m);
 }

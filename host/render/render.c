@@ -26,33 +26,17 @@ struct render {
     render_tile_memory tile;
 };
 
-/* Kernels in the order in which they are launched: before facets light each other, and behind. */
-static const size_t first_kernels[] = {KERNEL_SUN_HISTORY, KERNEL_BAND_TEMPERATURE,
-                                       KERNEL_BAND_EMISSIVITY, KERNEL_HEMISPHERE,
-                                       KERNEL_BACKGROUND};
-static const size_t exact_kernels[] = {KERNEL_INCIDENT, KERNEL_INTERREFLECTION_REACH,
-                                       KERNEL_INTERREFLECTION};
-static const size_t tile_kernels[] = {KERNEL_PRIMARY,        KERNEL_SUNLIGHT,   KERNEL_MIRROR,
-                                      KERNEL_BACKGROUND_HIT, KERNEL_SUN_TIMES,  KERNEL_TRUTH,
-                                      KERNEL_RADIOMETRY,     KERNEL_BAND_PLANES};
-
-#define COUNT(list) (sizeof(list) / sizeof *(list))
-
 void render_prepare(device *dev, const atomic_bool *is_vain)
 {
-    if (device_build_ahead(dev, first_kernels, COUNT(first_kernels))) return;
-    for (size_t i = 0; i < COUNT(first_kernels) && !*is_vain; i++)
-        device_prepare(dev, first_kernels[i]);
-    for (size_t i = 0; i < COUNT(tile_kernels) && !*is_vain; i++)
-        device_prepare(dev, tile_kernels[i]);
-    status_clear();
-}
+    static const size_t kernels[] = {
+        KERNEL_SUN_HISTORY,    KERNEL_HEMISPHERE, KERNEL_BAND_TEMPERATURE, KERNEL_BACKGROUND,
+        KERNEL_PRIMARY,        KERNEL_SUNLIGHT,   KERNEL_MIRROR,           KERNEL_BACKGROUND_HIT,
+        KERNEL_SUN_TIMES,      KERNEL_TRUTH,      KERNEL_RADIOMETRY,       KERNEL_BAND_PLANES,
+        KERNEL_BAND_EMISSIVITY};
 
-static void build_ahead(device *dev, const scene *s)
-{
-    device_build_ahead(dev, first_kernels, COUNT(first_kernels));
-    if (!s->thesis) device_build_ahead(dev, exact_kernels, COUNT(exact_kernels));
-    device_build_ahead(dev, tile_kernels, COUNT(tile_kernels));
+    for (size_t i = 0; i < sizeof kernels / sizeof *kernels && !*is_vain; i++)
+        device_prepare(dev, kernels[i]);
+    status_clear();
 }
 
 static void end_stage(render *r, const char *name)
@@ -241,7 +225,6 @@ status render_open(render **out, const scene *s, device *dev)
     r->shared.dev = dev;
     r->shared.tables.facet_count = s->shape->facet_count + (s->ground_material != RECORD_NONE);
     r->stage_start_s = clock_now_s();
-    build_ahead(dev, s);
     if (s->time_count > 1) TRY(sun_memory_open(&r->suns));
     TRY(open_rays(r));
     TRY(render_tables_take_facets(&r->shared.tables, dev, s));

@@ -256,8 +256,8 @@ def test_an_orthographic_view_is_saved_as_a_table_alone_and_read_again(preview, 
 def test_ctrl_c_ends_the_preview_soon_whatever_it_is_at(preview, airport, tmp_path, number):
     for wait_s in (0.2, 2.0, 5.0):  # reading the scene, building the tree, temperatures
         process = subprocess.Popen(
-            [preview.radsig, "view", airport, "--offscreen", tmp_path / "a.img"], cwd=tmp_path,
-            env=preview.environment(), stderr=subprocess.PIPE, text=True)
+            [preview.radsig, "view", airport, "--offscreen", tmp_path / "a.img", "--size", "3000x3000"],
+            cwd=tmp_path, env=preview.environment(), stderr=subprocess.PIPE, text=True)
         time.sleep(wait_s)
         process.send_signal(number)
         begin = time.monotonic()
