@@ -1,27 +1,10 @@
 #include "base/terminal_text.h"
 
+#include "base/utf8_text.h"
+
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
-
-/* Bytes of the UTF-8 character that begins here, and its code; 0 if none does: RFC 3629. */
-static size_t character_length(const unsigned char *c, uint32_t *out_code)
-{
-    static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-    const size_t length = *c < 0x80        ? 1
-                          : *c >> 5 == 6   ? 2
-                          : *c >> 4 == 14  ? 3
-                          : *c >> 3 == 30u ? 4
-                                           : 0;
-    uint32_t code = length == 1 ? *c : *c & (0x7fu >> length);
-
-    for (size_t i = 1; i < length; i++) {
-        if (c[i] >> 6 != 2) return 0;
-        code = code << 6 | (c[i] & 0x3fu);
-    }
-    *out_code = code;
-    return code >= least[length] && code <= 0x10ffff && code >> 11 != 0x1b ? length : 0;
-}
 
 static bool is_control(uint32_t code)
 {
@@ -32,7 +15,7 @@ static bool is_control(uint32_t code)
 static size_t hidden_length(const unsigned char *c, size_t *out_bytes)
 {
     uint32_t code = 0;
-    const size_t length = character_length(c, &code);
+    const size_t length = utf8_text_character((const char *)c, &code);
 
     *out_bytes = length > 0 ? length : 1;
     return length == 0 || is_control(code) ? *out_bytes : 0;

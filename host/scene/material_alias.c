@@ -2,6 +2,7 @@
 
 #include "base/array.h"
 #include "base/spelling.h"
+#include "base/utf8_text.h"
 #include "files/record_file.h"
 
 #include <fnmatch.h>
@@ -17,7 +18,7 @@ static status add(material_aliases *to, const char *pattern, const char *materia
                   const toml_node *node, int line)
 {
     status rc = STATUS_OK;
-    material_alias a = {strdup(pattern), strdup(material), node, line, false};
+    material_alias a = {utf8_text_copy(pattern), utf8_text_copy(material), node, line, false};
 
     NEED(a.pattern && a.material && array_add(&to->item, to->count, sizeof *to->item),
          STATUS_MEMORY, "no memory for names of materials");

@@ -51,6 +51,24 @@ def test_a_file_holds_patterns_too(tmp_path, csv):
     assert said == ""
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "latin-1"])
+@pytest.mark.parametrize("mesh_encoding", ["utf-8", "latin-1"])
+def test_names_are_the_same_in_either_encoding(tmp_path, encoding, mesh_encoding):
+    (tmp_path / "some.mat").write_bytes(LIBRARY.replace("tile", "Dachfläche").encode(encoding))
+    meshes = "".join(PLANE.replace("wall", name).replace(" 0\n", f" {z}\n").replace("1 2 3 4", "-4 -3 -2 -1")
+                     for z, name in enumerate(["Dachfläche", "Béton_1"]))
+    scene = write_scene(tmp_path, {"plane.obj": ""}, library={"materials": "some.mat"}, material=[
+        *WALLS, {"name": "Dachfläche", "emissivity": 0.5, "temperature_k": 300.0}])
+    (tmp_path / "plane.obj").write_bytes(meshes.encode(mesh_encoding))
+    (tmp_path / "names.csv").write_bytes("pattern,material\nBéton*,concrete\n".encode(encoding))
+    scene.write_text(scene.read_text() + '[materials]\nalias_file = "names.csv"\n', encoding="utf-8")
+    done = radsig("check", scene, encoding="utf-8")
+
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "alias       Béton_1 is concrete" in done.stdout
+    assert "1 Dachfläche" in done.stdout
+
+
 def test_the_first_that_fits_counts_and_the_table_comes_before_the_file(tmp_path):
     told, _ = check(tmp_path, ["Wall_a", "Wall_b"], '"Wall_a" = "brick"\n"Wall_*" = "concrete"', csv="pattern,material\nWall_?,brick\n")
 
