@@ -111,16 +111,17 @@ void material_aliases_read(material_aliases *out, scene_reader *reader)
 {
     scene_table t = scene_table_open(reader, toml_node_get(reader->root, "materials"), "materials");
     const toml_node *alias = scene_table_node(&t, "alias");
+    const bool is_table = alias && toml_node_kind(alias) == TOML_TABLE;
+    const char *key = "alias_file";
 
-    if (alias && toml_node_kind(alias) != TOML_TABLE)
-        scene_fail(reader, alias,
-                   "%s: found %s, expected [materials.alias], a table of patterns = \"material\"; "
-                   "alias_file names a CSV",
+    if (is_table) read_table(out, reader, alias, "");
+    if (alias && !is_table && scene_table_has(&t, key))
+        scene_fail(reader, alias, "%s: found %s, expected a table beside alias_file",
                    toml_node_name(alias), toml_node_text(alias));
-    else if (alias)
-        read_table(out, reader, alias, "");
-    if (scene_table_file(&t, "alias_file", &out->path))
-        scene_took(reader, read_file(out, out->path, toml_node_get(t.node, "alias_file")));
+    else if (alias && !is_table)
+        key = "alias";
+    if (scene_table_file(&t, key, &out->path))
+        scene_took(reader, read_file(out, out->path, toml_node_get(t.node, key)));
     scene_table_close(&t);
 }
 

@@ -18,7 +18,8 @@ typedef struct material_aliases {
     const char *path;     /* of the file; NULL: none */
 } material_aliases;
 
-/* Reads [materials]: the table alias, then the CSV alias_file. Failures are kept by the reader. */
+/* Reads [materials]: the table alias, then the CSV alias_file; alias may name the CSV itself. Failures are
+ * kept by the reader. */
 void material_aliases_read(material_aliases *out, scene_reader *reader);
 void material_aliases_free(material_aliases *aliases);
 

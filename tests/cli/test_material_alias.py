@@ -120,8 +120,13 @@ def test_what_leads_nowhere_is_refused_with_its_line(tmp_path, names, aliases, c
     assert [part for part in expected if part not in said] == []
 
 
-def test_a_string_in_the_place_of_the_table_is_explained(tmp_path):
-    scene = write_scene(tmp_path)
+def test_the_file_may_stand_in_the_place_of_the_table(tmp_path):
+    scene = write_scene(tmp_path, {"plane.obj": PLANE.replace("wall", "Beton")}, material=WALLS)
+    (tmp_path / "names.csv").write_text("pattern,material\nBet*,concrete\n")
     scene.write_text(scene.read_text() + '[materials]\nalias = "names.csv"\n')
 
-    assert "alias_file names a CSV" in radsig("check", scene).stderr
+    assert "alias       Beton is concrete" in radsig("check", scene).stdout
+    scene.write_text(scene.read_text() + 'alias_file = "names.csv"\n')
+    assert "expected a table beside alias_file" in radsig("check", scene).stderr
+    scene.write_text(scene.read_text().replace('alias_file = "names.csv"\n', "").replace('"names.csv"', "5"))
+    assert "materials.alias: 5, expected" in radsig("check", scene).stderr
