@@ -39,9 +39,11 @@ static const struct {
     const char *names; /* with a blank on both sides of each */
 } quantities[] = {
     {SONDE_PRESSURE, " pressure pres p air_pressure press "},
-    {SONDE_ALTITUDE, " altitude alt height hght geopotential_height geopotential_altitude gph "},
-    {SONDE_TEMPERATURE, " temperature temp t air_temperature "},
-    {SONDE_DEW_POINT, " dew_point dewpoint dew_point_temperature dewpoint_temperature dwpt td "},
+    {SONDE_ALTITUDE, " altitude alt height hght geopotential_height geopotential_altitude gph "
+                     "height_msl altitude_msl "},
+    {SONDE_TEMPERATURE, " temperature temp t air_temperature tmp "},
+    {SONDE_DEW_POINT,
+     " dew_point dewpoint dew_point_temperature dewpoint_temperature dwpt td dewp dwp "},
     {SONDE_HUMIDITY, " relative_humidity rh relh "},
     {SONDE_DEPRESSION, " dew_point_depression dewpoint_depression dpdp "},
 };
@@ -81,9 +83,9 @@ static const char *take_field(const char *row, char separator, char out[FIELD_SI
 }
 
 /* Makes `Temperature [°C]` and `temperature_C` the same: small letters, one underscore between words. */
-static void plain_name(char *name)
+static void plain_name(char *name, size_t size)
 {
-    char plain[FIELD_SIZE] = "";
+    char plain[2 * FIELD_SIZE] = "";
     size_t used = 0;
 
     for (const unsigned char *c = (const unsigned char *)name; *c; c++) {
@@ -98,7 +100,7 @@ static void plain_name(char *name)
         if (used + 10 > sizeof plain) break;
     }
     while (used > 0 && plain[used - 1] == '_') used--;
-    snprintf(name, FIELD_SIZE, "%.*s", (int)used, plain);
+    snprintf(name, size, "%.*s", (int)used, plain);
 }
 
 static bool is_one_of(const char *name, size_t length, const char *list)
@@ -118,23 +120,33 @@ static bool find_unit(const char *name, sonde_quantity quantity, sonde_unit *out
     return false;
 }
 
+/* A name that ends in its unit, with an underscore between or, as in tmpc and dwpc, a letter. */
+static size_t quantity_length(const char *name)
+{
+    const char *last = strrchr(name, '_');
+
+    if (last) return (size_t)(last - name);
+    if (!strcmp(name, "tmpc") || !strcmp(name, "dwpc")) return 3;
+    return 0;
+}
+
 /* What a column holds; *out_lacks_unit is true for a quantity whose unit is not stated. */
 static column column_of(const char *name, bool *out_lacks_unit)
 {
-    const char *last = strrchr(name, '_');
-    const size_t length = last ? (size_t)(last - name) : 0;
+    const size_t length = quantity_length(name);
+    const char *unit = name + length + (name[length] == '_');
     column c = {.kind = COLUMN_OTHER};
 
     for (size_t i = 0; i < sizeof quantities / sizeof *quantities; i++) {
         const sonde_quantity q = quantities[i].quantity;
         if (is_one_of(name, strlen(name), quantities[i].names)) *out_lacks_unit = true;
-        if (!last || !is_one_of(name, length, quantities[i].names)) continue;
-        if (find_unit(last + 1, q, &c.unit))
+        if (!length || !is_one_of(name, length, quantities[i].names)) continue;
+        if (find_unit(unit, q, &c.unit))
             c.kind = COLUMN_QUANTITY;
         else
             *out_lacks_unit = true;
     }
-    if (is_one_of(name, strlen(name), " time date_time datetime valid_utc time_utc "))
+    if (is_one_of(name, strlen(name), " time date_time datetime valid_utc validutc time_utc "))
         c.kind = COLUMN_TIME;
     if (is_one_of(name, strlen(name), " station station_number station_id wmo_id "))
         c.kind = COLUMN_STATION;
@@ -143,16 +155,22 @@ static column column_of(const char *name, bool *out_lacks_unit)
     return c;
 }
 
-/* Reads the names; `has` tells which quantities there are. Returns whether one lacks its unit. */
-static bool read_names(csv_head *out, const char *text, bool has[SONDE_QUANTITIES])
+/* Reads the names, and what stands below them if that is a line of units; `has` tells which quantities
+ * there are. Returns whether one lacks its unit. */
+static bool read_names(csv_head *out, const char *text, const char *units_text,
+                       bool has[SONDE_QUANTITIES])
 {
-    char name[FIELD_SIZE];
+    char name[2 * FIELD_SIZE], unit[FIELD_SIZE];
     bool lacks_unit = false;
 
     *out = (csv_head){.separator = strchr(text, ',') ? ',' : strchr(text, ';') ? ';' : '\t'};
+    for (int q = 0; q < SONDE_QUANTITIES; q++) has[q] = false;
     for (const char *rest = text; rest && out->count < COLUMN_LIMIT; out->count++) {
         rest = take_field(rest, out->separator, name);
-        plain_name(name);
+        *unit = '\0';
+        if (units_text) units_text = take_field(units_text, out->separator, unit);
+        if (*unit) snprintf(name + strlen(name), sizeof name - strlen(name), "_%s", unit);
+        plain_name(name, sizeof name);
         column c = column_of(name, &lacks_unit);
         if (c.kind == COLUMN_QUANTITY && has[c.unit.quantity]) c.kind = COLUMN_OTHER;
         if (c.kind == COLUMN_QUANTITY) has[c.unit.quantity] = true;
@@ -161,11 +179,18 @@ static bool read_names(csv_head *out, const char *text, bool has[SONDE_QUANTITIE
     return lacks_unit;
 }
 
-static status read_head(csv_head *out, const char *text, const record_file *file)
+/* Takes the line below the names too where it holds their units. */
+static status read_head(csv_head *out, const char *text, record_file *file)
 {
-    bool has[SONDE_QUANTITIES] = {false};
+    bool has[SONDE_QUANTITIES];
+    bool lacks_unit = read_names(out, text, NULL, has);
+    const char *units_text = lacks_unit ? record_file_peek(file) : NULL;
 
-    const bool lacks_unit = read_names(out, text, has);
+    if (units_text && !isdigit((unsigned char)units_text[strspn(units_text, " \t\"-+.,;")])) {
+        const status rc = record_file_text(file, &units_text, "the units of the columns");
+        if (rc != STATUS_OK) return rc;
+        lacks_unit = read_names(out, text, units_text, has);
+    }
     if (lacks_unit || (!has[SONDE_PRESSURE] && !has[SONDE_TEMPERATURE]))
         return record_file_reject(file, "columns with units: %s", expected);
     if (!has[SONDE_PRESSURE] || !has[SONDE_ALTITUDE] || !has[SONDE_TEMPERATURE])

@@ -19,7 +19,7 @@
 static const struct {
     double low, high;
 } range[SONDE_QUANTITIES] = {{1e-3, 1100.0}, {-500.0, 60000.0}, {150.0, 350.0},
-                             {150.0, 350.0}, {0.0, 1.5},        {-1.0, 150.0}};
+                             {150.0, 350.0}, {0.0, 1.5},        {-1.0, 98.0}};
 
 static bool is_inside(sonde_quantity q, double value)
 {
@@ -84,7 +84,7 @@ static status check_ranges(const double *value, const record_file *file)
     if (value[SONDE_HUMIDITY] < 0.0 || value[SONDE_DEPRESSION] < range[SONDE_DEPRESSION].low ||
         value[SONDE_DEPRESSION] > range[SONDE_DEPRESSION].high)
         return record_file_reject(file, "a relative humidity from 0 to 100, a dew point's "
-                                        "depression from 0 to 150 K");
+                                        "depression from 0 to 98 K");
     return STATUS_OK;
 }
 

@@ -84,6 +84,8 @@ def igra(levels=LEVELS, hour="12", day="22", station="USM00072357", place=" 3520
     csv("dew_point_k,temperature_k,altitude_km,pressure_pa", [(d + 273.15, t + 273.15, z / 1e3, 100 * p) for p, z, t, d in LEVELS]),
     csv("pressure_hpa;altitude_m;temperature_c;dew_point_c", separator=";").replace(".", ","),
     "\ufeff" + csv(),
+    csv("pressure_mb,height_m,tmpc,dwpc"),
+    csv("P,HeightMSL,Temp,Dewp\nhPa,m,°C,°C").replace("HeightMSL", "Height"),
     archive_csv(),
     igra(),
 ])
@@ -189,6 +191,7 @@ def test_of_several_stations_the_nearest_is_taken(levels_of):
     (csv(levels=[*LEVELS[:2], (850.0, 1450, "warm", 6.0), *LEVELS[3:]]), "sounding:4"),
     (csv(levels=[*LEVELS[:2], (850.0, 1450), *LEVELS[3:]]), "a number in each column"),
     (csv("pressure_hpa,altitude_m,temperature,dew_point_c"), "columns with units"),
+    (csv("P,Height,Temp,Dewp\nhPa,m,°F,°F"), "columns with units"),
     (csv("pressure_hpa,altitude_m,temperature_f,dew_point_c"), "columns with units"),
     (csv(levels=[(p, "-9999", t, d) for p, _, t, d in LEVELS]), "no level has a height"),
     (csv(levels=LEVELS[::-1]), "sounding:3"),
