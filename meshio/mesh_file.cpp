@@ -24,6 +24,7 @@ void read_format(mesh_soup &soup, const std::string &path, std::string &text)
 {
     const std::string extension = std::filesystem::path(path).extension().string();
 
+    if (!mesh_text_is(extension, ".stl")) mesh_text_unify(text);
     if (mesh_text_is(extension, ".obj"))
         mesh_obj_read(soup, path, text);
     else if (mesh_text_is(extension, ".ply"))

@@ -15,6 +15,9 @@ bool mesh_text_is(std::string_view word, std::string_view keyword);
 /* What may stand behind the end of a text: zero bytes and Control-Z. */
 constexpr std::string_view mesh_text_padding("\0\x1a", 2);
 
+/* Turns a text in UTF-16, as its byte order mark says, into UTF-8; leaves all others as they are. */
+void mesh_text_unify(std::string &text);
+
 /* A number in messages, ten digits at most. */
 std::string mesh_text_shown(double number);
 

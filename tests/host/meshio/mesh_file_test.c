@@ -436,6 +436,31 @@ static void keywords_of_an_obj_that_say_nothing_of_shape_are_no_oddity(void **st
         1, "");
 }
 
+/* U+1F9F1 is a pair of surrogates. */
+static void a_text_in_utf_16_is_read(void **state)
+{
+    const char text[] = TRIANGLE "usemtl \xd8\x3e\xdd\xf1\nf 1 2 3\n";
+    char bytes[256] = "\xfe\xff", turned[256];
+    size_t size = 2;
+    mesh_file *mesh = NULL;
+    (void)state;
+
+    for (const char *c = text; *c; c++) {
+        bytes[size++] = '\0';
+        bytes[size++] = *c;
+        if (*c != '\xd8' && *c != '\xdd') continue;
+        bytes[size - 2] = *c; /* the high byte of a unit */
+        bytes[size - 1] = *++c;
+    }
+    for (size_t i = 0; i < size; i++) turned[i] = bytes[i ^ 1];
+    for (int i = 0; i < 2; i++) {
+        write_file("utf16.obj", i ? turned : bytes, size);
+        if (mesh_file_read(&mesh, path, message, sizeof message)) fail_msg("%s", message);
+        assert_string_equal(mesh->material_name[0], "\xf0\x9f\xa7\xb1");
+        mesh_file_free(mesh);
+    }
+}
+
 static void padding_behind_a_text_is_no_text(void **state)
 {
     (void)state;
@@ -533,7 +558,7 @@ static void what_is_no_mesh_file_is_refused(void **state)
     assert_non_null(strstr(message, "a folder, expected a file"));
     assert_int_not_equal(mesh_file_read(&mesh, "nonesuch.obj", message, sizeof message), 0);
     assert_string_equal(message, "nonesuch.obj: No such file or directory");
-    write_file("utf16.obj", "\xfe\xff\0v\0 \0 1", 8);
+    write_file("zero.obj", "v 1\0 2", 6);
     assert_int_not_equal(mesh_file_read(&mesh, path, message, sizeof message), 0);
     assert_non_null(strstr(message, ":1: a zero byte, expected text"));
 }
@@ -619,6 +644,7 @@ int main(void)
         cmocka_unit_test(a_comment_of_an_obj_begins_anywhere_in_vertices_and_faces),
         cmocka_unit_test(what_an_obj_holds_beside_polygons_is_told),
         cmocka_unit_test(keywords_of_an_obj_that_say_nothing_of_shape_are_no_oddity),
+        cmocka_unit_test(a_text_in_utf_16_is_read),
         cmocka_unit_test(padding_behind_a_text_is_no_text),
         cmocka_unit_test(a_header_of_an_off_may_be_glued_or_missing),
         cmocka_unit_test(a_count_of_a_binary_stl_that_is_none_is_taken_from_the_size),
