@@ -8,6 +8,8 @@
 
 #define NEAR_S (6 * 3600.0)
 #define EARTH_KM 6371.0
+#define FAR_H 12.0
+#define FAR_KM 500.0
 
 enum { LISTED = 8, LIST_SIZE = 1024 };
 
@@ -100,6 +102,19 @@ static bool is_alone(const sonde_parts *parts, const sonde_part *best)
     return true;
 }
 
+/* Warns of a sounding of another day or another country. */
+static void warn_if_far(const sonde_part *p, const site *where, const char *path)
+{
+    char one[SONDE_NAME_SIZE + 80];
+    const double away_h = fabs(p->time_s - where->time_s) / 3600.0;
+    const bool has_place = !isnan(p->latitude_deg + p->longitude_deg);
+
+    describe(one, sizeof one, p);
+    if (away_h > FAR_H) status_warn("%s: %s is %.0f h from the scene's time", path, one, away_h);
+    if (has_place && distance_km(p, where) > FAR_KM)
+        status_warn("%s: %s is %.0f km from the scene's place", path, one, distance_km(p, where));
+}
+
 status sonde_choose(const sonde_part **out, const sonde_parts *parts, const site *where,
                     const char *path)
 {
@@ -115,6 +130,7 @@ status sonde_choose(const sonde_part **out, const sonde_parts *parts, const site
         describe(one, sizeof one, best);
         status_warn("%s: of %zu soundings %s is taken, the nearest", path, parts->count, one);
     }
+    if (where) warn_if_far(best, where, path);
     *out = best;
 out:
     return rc;

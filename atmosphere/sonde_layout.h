@@ -27,7 +27,8 @@ typedef struct sonde_parts {
 /* Appends a sounding of which nothing is known but its line; it is the last until the next call. */
 status sonde_parts_add(sonde_parts *parts, int line);
 
-/* Chooses the one sounding of a file, or of several that of the nearest station and hour, with a warning.
+/* Chooses the one sounding of a file, or of several that of the nearest station and hour, with a warning;
+ * warns too where it is more than 12 h or 500 km away.
  * Fails with a list of them where no hour lies within 6 h, or stations and hours do not tell.
  *   where   place and time of the scene; NULL: not known */
 status sonde_choose(const sonde_part **out, const sonde_parts *parts, const site *where,

@@ -177,6 +177,17 @@ def test_of_several_soundings_the_nearest_hour_s_is_taken(levels_of, join):
     assert all(f"2011-05-{day}:00:00" in refused for day in ("22T00", "22T12", "23T00"))
 
 
+@pytest.mark.parametrize("text, time, expected", [
+    (pages(), "2011-05-23T12:00:00Z", "72357 2011-05-22T12:00:00Z (line 4) is 24 h from the scene's time"),
+    (archive_csv(time="1999-05-04 00:00:00"), "2011-05-22T12:00:00Z", "h from the scene's time"),
+    (igra(place=" 712889 -1567833"), "2011-05-22T12:00:00Z", "km from the scene's place"),
+    (igra(), "2011-05-22T23:00:00Z", ""),
+])
+def test_a_sounding_of_another_day_or_country_is_told(levels_of, text, time, expected):
+    assert levels_of(text, time=time)[1].count("\n") == bool(expected)
+    assert expected in levels_of(text, time=time)[1]
+
+
 def test_of_several_stations_the_nearest_is_taken(levels_of):
     warmer = [(p, z, t + 5.0, d) for p, z, t, d in LEVELS]
 
