@@ -1,11 +1,11 @@
 #include "scene/material_alias.h"
 
 #include "base/array.h"
+#include "base/name_pattern.h"
 #include "base/spelling.h"
 #include "base/utf8_text.h"
 #include "files/record_file.h"
 
-#include <fnmatch.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -139,7 +139,7 @@ const material_alias *material_aliases_find(material_aliases *aliases, const cha
 {
     for (size_t i = 0; i < aliases->count; i++) {
         material_alias *a = &aliases->item[i];
-        if (strcmp(a->pattern, name) != 0 && (is_known || fnmatch(a->pattern, name, 0) != 0))
+        if (strcmp(a->pattern, name) != 0 && (is_known || !name_pattern_fits(a->pattern, name)))
             continue;
         a->is_used = true;
         return a;
