@@ -1,5 +1,6 @@
 #include "import.h"
 
+#include "base/number.h"
 #include "database_grid.h"
 #include "scene/scene_table.h"
 #include "tape7.h"
@@ -8,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Texts and numbers belong to the TOML file. */
 typedef struct manifest {
@@ -18,6 +20,7 @@ typedef struct manifest {
     const char *const *path, *const *sky;
     size_t path_count, sky_count;
     const double *range_m, *altitude_m, *temperature_k;
+    size_t blank_emitted, blank_scattered; /* files that left the column blank */
 } manifest;
 
 enum { PATH_SIZE = 4096 };
@@ -113,15 +116,30 @@ static void read_manifest(manifest *m, scene_reader *reader)
     scene_table_close(&t);
 }
 
+/* Takes the number of a run off a name, "tape7#2"; 0 without one. A file of the whole name is that file. */
+static int split_run(char *path)
+{
+    char *mark = strrchr(path, '#');
+    int64_t run = 0;
+
+    if (!mark || access(path, F_OK) == 0 || !number_read_whole(mark + 1, 1, 1000000, &run))
+        return 0;
+    *mark = '\0';
+    return (int)run;
+}
+
 /* Reads one file and checks its grid against the database's, if there is one. */
-static status read_file(tape7 **out, const manifest *m, const char *name, const atmosphere *a)
+static status read_file(tape7 **out, manifest *m, const char *name, const atmosphere *a)
 {
     status rc = STATUS_OK;
     char path[PATH_SIZE];
     tape7 *t = NULL;
 
     snprintf(path, sizeof path, "%.*s%s", *name == '/' ? 0 : m->folder_length, m->folder, name);
-    TRY(tape7_read(&t, path));
+    const int run = split_run(path);
+    TRY(tape7_read(&t, path, run));
+    m->blank_emitted += t->is_emitted_blank;
+    m->blank_scattered += t->is_scattered_blank;
     if (a)
         NEED(t->count == a->point_count &&
                  fabs(t->wavenumber_cm1[0] - a->wavenumber_min_cm1) < 1e-3 &&
@@ -164,7 +182,7 @@ out:
     return rc;
 }
 
-static status take_path(atmosphere *a, const manifest *m, size_t path)
+static status take_path(atmosphere *a, manifest *m, size_t path)
 {
     status rc = STATUS_OK;
     tape7 *t = NULL;
@@ -182,7 +200,7 @@ out:
 }
 
 /* File 0 is the zenith; then each ring from azimuth 0 on, whose 360 repeats its 0. */
-static status take_sky(atmosphere *a, const manifest *m, size_t file)
+static status take_sky(atmosphere *a, manifest *m, size_t file)
 {
     status rc = STATUS_OK;
     tape7 *t = NULL;
@@ -203,6 +221,17 @@ out:
     return rc;
 }
 
+static void warn_of_blanks(const manifest *m)
+{
+    if (m->blank_emitted)
+        status_warn("PTH THRML is blank in %zu files, of runs without heat (IEMSCT 4): 0 is taken",
+                    m->blank_emitted);
+    if (m->blank_scattered)
+        status_warn(
+            "SOL SCAT is blank in %zu files, of runs without sunlight (IEMSCT 1): 0 is taken",
+            m->blank_scattered);
+}
+
 static status take_all(atmosphere **out, manifest *m)
 {
     status rc = STATUS_OK;
@@ -216,6 +245,7 @@ static status take_all(atmosphere **out, manifest *m)
         a->level_temperature_k[i] = m->temperature_k[i];
     }
     TRY(database_grid_integrate(a, false));
+    warn_of_blanks(m);
     a->header = strdup("# Radiance database imported from MODTRAN's tape7 files by "
                        "radsig-atmosphere " RADSIG_VERSION ".\n");
     NEED(a->header, STATUS_MEMORY, "no memory for the header of a radiance database");

@@ -42,11 +42,16 @@ static int processor_count(void)
 static status crew_open(crew *c, size_t decks)
 {
     status rc = STATUS_OK;
+    char why[512];
     const char *folder = getenv("TMPDIR");
     const int processors = processor_count();
 
     if (!folder || !*folder) folder = "/tmp";
-    TRY(staging_folder_open(&c->folder, folder, folder));
+    rc = staging_folder_open(&c->folder, folder, folder);
+    if (rc != STATUS_OK) {
+        snprintf(why, sizeof why, "%s", status_message());
+        NEED(false, rc, "%s (LOWTRAN runs there; TMPDIR chooses another folder)", why);
+    }
     while (c->count < processors && (size_t)c->count < decks) {
         TRY(lowtran_process_open(&c->process[c->count], staging_folder_path(c->folder), c->count));
         c->count++;

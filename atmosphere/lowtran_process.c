@@ -211,7 +211,8 @@ static status explain(const lowtran_process *p, int wait_status, const char *nam
     const char *end = "gave no spectrum";
 
     if (WIFSIGNALED(wait_status))
-        end = WTERMSIG(wait_status) == SIGALRM ? "took too long" : "crashed";
+        end = WTERMSIG(wait_status) == SIGALRM || WTERMSIG(wait_status) == SIGXCPU ? "took too long"
+                                                                                   : "crashed";
     else if (wait_status != 0)
         end = "stopped";
     const status rc = status_set(STATUS_FORMAT,

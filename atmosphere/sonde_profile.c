@@ -206,7 +206,7 @@ status sonde_profile_cards(char **out, const database_plan *g)
         goto out;
     }
     if (plan->radiosonde)
-        TRY(sonde_read(&read, plan->radiosonde));
+        TRY(sonde_read(&read, plan->radiosonde, &g->s->place));
     else
         TRY(model_sonde_make(&read, plan->model, least_top_m(plan)));
     TRY(check_reach(read, plan));

@@ -1,96 +1,61 @@
 #include "tape7.h"
 
+#include "base/array.h"
+#include "base/number.h"
 #include "files/record_file.h"
+#include "tape7_head.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define PER_CM2 1e4    /* W cm-2 to W m-2 */
 #define PER_CM1_UM 1e4 /* per cm-1 to per um: nu^2 / 1e4 */
-#define LAST_MARK -9999.0
 
-enum { NAME_SIZE = 32, COLUMN_LIMIT = 40, WANTED = 5 };
+enum { LIST_SIZE = 1024 };
 
-typedef struct head {
-    int count;          /* columns of a row */
-    int column[WANTED]; /* of what is wanted; -1: none */
-} head;
+/* One run of a file, for the list. */
+typedef struct run_range {
+    int head_line, rows;
+    double first_cm1, last_cm1;
+} run_range;
 
-/* Names as they stand in heads, blanks and underscores left out. */
-static const char *const wanted[WANTED][2] = {{"FREQ", "FREQ"},
-                                              {"TOTTRANS", "TRANS"},
-                                              {"PTHTHRML", "PATHTHERMAL"},
-                                              {"SOLSCAT", "SOLSCATT"},
-                                              {"SOLAR", "SOLIRRAD"}};
-
-/* Words of a head of which two make one name. */
-static bool joins(const char *first, const char *second)
+static bool is_last_mark(const char *text)
 {
-    static const char *const pairs[][2] = {
-        {"TOT", "TRANS"}, {"PTH", "THRML"}, {"THRML", "SCT"}, {"SURF", "EMIS"}, {"SOL", "SCAT"},
-        {"SING", "SCAT"}, {"GRND", "RFLT"}, {"DRCT", "RFLT"}, {"TOTAL", "RAD"}, {"REF", "SOL"},
-        {"DIR", "EM"},    {"SOL", "TR"},    {"DIR", "EMIS"}};
+    double value;
+    const char *rest = number_take(text, &value);
 
-    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
-        if (!strcmp(first, pairs[i][0]) && !strcmp(second, pairs[i][1])) return true;
-    return false;
+    return rest && value == -9999.0;
 }
 
-/* Splits a head into upper-case words without underscores. */
-static int split(const char *text, char words[COLUMN_LIMIT][NAME_SIZE])
+static double **list_of(tape7 *t, int k)
 {
-    int count = 0;
+    double **const list[TAPE7_WANTED] = {&t->wavenumber_cm1, &t->transmission, &t->emitted,
+                                         &t->scattered, &t->solar};
 
-    while (count < COLUMN_LIMIT) {
-        size_t length = 0;
-        text += strspn(text, " \t");
-        if (!*text) break;
-        for (; *text && *text != ' ' && *text != '\t'; text++)
-            if (*text != '_' && length + 1 < NAME_SIZE)
-                words[count][length++] = (char)toupper((unsigned char)*text);
-        words[count++][length] = '\0';
-    }
-    return count;
+    return list[k];
 }
 
-/* False where the line is no head. */
-static bool read_head(head *out, const char *text)
+static status add_row(tape7 *t, const tape7_head *h, const double row[TAPE7_WANTED],
+                      const record_file *file)
 {
-    char words[COLUMN_LIMIT][NAME_SIZE], name[2 * NAME_SIZE];
-    const int count = split(text, words);
-
-    if (count < 2 || strcmp(words[0], "FREQ") != 0) return false;
-    out->count = 0;
-    for (int k = 0; k < WANTED; k++) out->column[k] = -1;
-    for (int i = 0; i < count; i++) {
-        strcpy(name, words[i]);
-        if (i + 1 < count && joins(words[i], words[i + 1])) strcat(name, words[++i]);
-        for (int k = 0; k < WANTED; k++)
-            if (!strcmp(name, wanted[k][0]) || !strcmp(name, wanted[k][1]))
-                out->column[k] = out->count;
-        out->count++;
-    }
-    return true;
-}
-
-static status add_row(tape7 *t, const head *h, const double *row)
-{
-    double **const to[WANTED] = {&t->wavenumber_cm1, &t->transmission, &t->emitted, &t->scattered,
-                                 &t->solar};
+    status rc = STATUS_OK;
     const double per_um = row[0] * row[0] / PER_CM1_UM * PER_CM2;
 
-    for (int k = 0; k < WANTED; k++) {
+    for (int k = 0; k < TAPE7_WANTED; k++) {
+        double **to = list_of(t, k);
         if (h->column[k] < 0) continue;
-        double *larger = realloc(*to[k], ((size_t)t->count + 1) * sizeof *larger);
-        if (!larger) return status_set(STATUS_MEMORY, "no memory for a tape7");
-        *to[k] = larger;
-        larger[t->count] = row[h->column[k]] * (k < 2 ? 1.0 : per_um);
+        if (t->count > 0 && isnan(row[k]) != isnan((*to)[t->count - 1]))
+            return record_file_reject(file, "a number below %s in all rows or in none",
+                                      tape7_column_name((tape7_column)k));
+        NEED(array_add(to, (size_t)t->count, sizeof **to), STATUS_MEMORY, "no memory for a tape7");
+        (*to)[t->count] = row[k] * (k < TAPE7_EMITTED ? 1.0 : per_um);
     }
     t->count++;
-    return STATUS_OK;
+out:
+    return rc;
 }
 
 /* Even to a thousandth of the step. */
@@ -99,48 +64,160 @@ static bool is_even(const tape7 *t)
     const double *nu = t->wavenumber_cm1;
 
     for (int i = 1; i < t->count; i++)
-        if (fabs(nu[i] - nu[0] - i * (nu[1] - nu[0])) > 1e-3 * (nu[1] - nu[0]) || nu[1] <= nu[0])
+        if (!(fabs(nu[i] - nu[0] - i * (nu[1] - nu[0])) <= 1e-3 * (nu[1] - nu[0])) ||
+            nu[1] <= nu[0])
             return false;
-    return t->count >= 2;
+    return t->count >= 2 && isfinite(nu[0]);
 }
 
-static status read_rows(tape7 *t, const head *h, record_file *file)
+/* What the run did not compute is blank: light of the sun, or heat. */
+static status fill_blank(tape7 *t, const record_file *file)
+{
+    for (int k = 0; k < TAPE7_WANTED; k++) {
+        double *list = *list_of(t, k);
+        if (!list || !isnan(list[0])) continue;
+        if (k != TAPE7_EMITTED && k != TAPE7_SCATTERED)
+            return record_file_reject(file, "numbers below %s", tape7_column_name((tape7_column)k));
+        memset(list, 0, (size_t)t->count * sizeof *list);
+        t->is_emitted_blank |= k == TAPE7_EMITTED;
+        t->is_scattered_blank |= k == TAPE7_SCATTERED;
+    }
+    return STATUS_OK;
+}
+
+static status read_rows(tape7 *t, tape7_head *h, record_file *file, const char *path)
 {
     status rc = STATUS_OK;
     const char *text;
-    double row[COLUMN_LIMIT];
+    double row[TAPE7_WANTED], first;
+    bool ends = false;
 
-    while (!record_file_at_end(file)) {
+    while (!ends && !record_file_at_end(file)) {
         TRY(record_file_text(file, &text, "a row of the table"));
-        const int found = record_numbers(text, COLUMN_LIMIT, row);
-        if (found >= 1 && row[0] == LAST_MARK) break;
-        if (found == h->count) {
-            TRY(add_row(t, h, row));
+        ends = is_last_mark(text);
+        if (ends) break;
+        if (tape7_head_row(h, text, (int)record_file_column(file), row)) {
+            TRY(add_row(t, h, row, file));
             continue;
         }
-        if (t->count == 0 && found < 0) continue; /* a line of units */
+        if (t->count == 0 &&
+            (tape7_head_add(h, text, (int)record_file_column(file)) || !number_take(text, &first)))
+            continue; /* units */
         rc = record_file_reject(file, "%d columns of numbers, or -9999. at the end", h->count);
         goto out;
     }
+    if (t->count > 0) TRY(fill_blank(t, file));
     if (!is_even(t)) rc = record_file_reject(file, "wavenumbers that rise evenly");
+    if (!ends)
+        status_warn("%s: does not end with -9999. as MODTRAN's files do: is it whole?", path);
 out:
     return rc;
 }
 
-status tape7_read(tape7 **out, const char *path)
+/* Steps to the head of the next run; *out_found is false at the end. */
+static status find_head(tape7_head *out, bool *out_found, record_file *file)
+{
+    status rc = STATUS_OK;
+    const char *text;
+
+    *out_found = false;
+    while (!*out_found && !record_file_at_end(file)) {
+        TRY(record_file_text(file, &text, "a head that starts with FREQ"));
+        *out_found = tape7_head_read(out, text, (int)record_file_column(file));
+    }
+out:
+    return rc;
+}
+
+/* Passes over the rows of a run. */
+static status pass_rows(run_range *out, record_file *file)
+{
+    status rc = STATUS_OK;
+    const char *text;
+    double first;
+
+    *out = (run_range){.head_line = record_file_line(file)};
+    while (!record_file_at_end(file)) {
+        TRY(record_file_text(file, &text, "a row of the table"));
+        if (is_last_mark(text)) break;
+        if (!number_take(text, &first)) continue;
+        if (out->rows++ == 0) out->first_cm1 = first;
+        out->last_cm1 = first;
+    }
+out:
+    return rc;
+}
+
+/* The runs of a file in words; *out_count is their number. */
+static status list_runs(char out[LIST_SIZE], int *out_count, const char *path)
 {
     status rc = STATUS_OK;
     record_file *file = NULL;
-    const char *text;
-    head h;
+    tape7_head h;
+    run_range range;
+    bool found = true;
+    size_t used = 0;
+
+    *out_count = 0;
+    out[0] = '\0';
+    TRY(record_file_open(&file, path));
+    for (;;) {
+        TRY(find_head(&h, &found, file));
+        if (!found) break;
+        TRY(pass_rows(&range, file));
+        ++*out_count;
+        if (used + 100 < LIST_SIZE)
+            used += (size_t)snprintf(out + used, LIST_SIZE - used,
+                                     "%s%d (line %d, %d rows from %g to %g)",
+                                     *out_count > 1 ? ", " : "", *out_count, range.head_line,
+                                     range.rows, range.first_cm1, range.last_cm1);
+    }
+out:
+    record_file_free(file);
+    return rc;
+}
+
+/* Fails unless the file has the run that is asked for. */
+static status check_run(const char *path, int run)
+{
+    status rc = STATUS_OK;
+    char list[LIST_SIZE];
+    int count;
+
+    TRY(list_runs(list, &count, path));
+    NEED(count > 0, STATUS_FORMAT, "%s: expected a head that starts with FREQ: MODTRAN's tape7",
+         path);
+    NEED(run > 0 || count == 1, STATUS_FORMAT,
+         "%s: holds %d runs, expected one, or its number behind the name, as in \"%s#2\": %s", path,
+         count, strrchr(path, '/') ? strrchr(path, '/') + 1 : path, list);
+    NEED(run <= count, STATUS_FORMAT, "%s: has no run %d: %s", path, run, list);
+out:
+    return rc;
+}
+
+status tape7_read(tape7 **out, const char *path, int run)
+{
+    status rc = STATUS_OK;
+    record_file *file = NULL;
+    tape7_head h;
+    run_range passed;
+    bool found;
     tape7 *t = calloc(1, sizeof *t);
 
     NEED(t, STATUS_MEMORY, "%s: no memory to read it", path);
+    TRY(check_run(path, run));
     TRY(record_file_open(&file, path));
-    do {
-        TRY(record_file_text(file, &text, "a head that starts with FREQ: MODTRAN's tape7"));
-    } while (!read_head(&h, text));
-    TRY(read_rows(t, &h, file));
+    TRY(find_head(&h, &found, file));
+    for (int i = 1; i < run; i++) {
+        TRY(pass_rows(&passed, file));
+        TRY(find_head(&h, &found, file));
+    }
+    if (h.has_wavelengths) {
+        rc = record_file_reject(file, "a spectrum by wavenumber, whose steps are even: filtered "
+                                      "files with FLAGS(1) = W");
+        goto out;
+    }
+    TRY(read_rows(t, &h, file, path));
     *out = t;
     t = NULL;
 out:

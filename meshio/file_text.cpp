@@ -7,6 +7,8 @@ extern "C" {
 #include "failure.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <memory>
 
 namespace
@@ -38,7 +40,8 @@ void file_text_fill(char *out, std::size_t size, FILE *file, const std::string &
         const std::size_t wanted = std::min(portion, size - at);
         cancel_check();
         if (std::fread(out + at, 1, wanted, file) != wanted)
-            throw failure(path + ": cannot be read");
+            throw failure(path + ": cannot be read: " +
+                          (std::ferror(file) ? std::strerror(errno) : "it became shorter"));
     }
     input_file_tell(path.c_str(), out, size);
 }

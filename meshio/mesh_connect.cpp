@@ -121,13 +121,18 @@ bool is_finite(const soup_view &soup, std::uint32_t face)
     return true;
 }
 
-/* No area beyond what rounding of the coordinates can make. */
-bool is_flat(const soup_view &soup, std::uint32_t face)
+struct face_area {
+    double normal[3]; /* twice the area long */
+    bool is_flat;     /* no area beyond what rounding of the coordinates can make */
+};
+
+face_area area_of(const soup_view &soup, std::uint32_t face)
 {
     const std::uint32_t *corner = soup.corner + soup.first[face];
     const std::uint32_t count = soup.first[face + 1] - soup.first[face];
     const double *origin = soup.position[corner[0]];
-    double normal[3] = {0, 0, 0}, largest = 0, reach = 0;
+    face_area area{};
+    double *const normal = area.normal, largest = 0, reach = 0;
 
     for (std::uint32_t k = 0; k < count; k++) {
         const double *p = soup.position[corner[k]], *q = soup.position[corner[(k + 1) % count]];
@@ -139,7 +144,13 @@ bool is_flat(const soup_view &soup, std::uint32_t face)
             reach = std::fmax(reach, std::fabs(p[axis] - origin[axis]));
         }
     }
-    return std::hypot(normal[0], normal[1], normal[2]) <= 4 * DBL_EPSILON * largest * reach;
+    area.is_flat = std::hypot(normal[0], normal[1], normal[2]) <= 4 * DBL_EPSILON * largest * reach;
+    return area;
+}
+
+bool faces_alike(const face_area &a, const face_area &b)
+{
+    return a.normal[0] * b.normal[0] + a.normal[1] * b.normal[1] + a.normal[2] * b.normal[2] > 0;
 }
 
 class connector
@@ -193,7 +204,11 @@ class connector
     {
         const vertex_sets set = sets();
         std::vector<bool> is_sound(soup_.face_count);
-        first_equal seen(soup_.face_count);
+        first_equal seen(soup_.face_count), seen_facing(soup_.face_count);
+        const auto is_equal = [&set](std::uint32_t a, std::uint32_t b) { return set.equal(a, b); };
+        const auto is_twin = [&](std::uint32_t a, std::uint32_t b) {
+            return set.equal(a, b) && faces_alike(area_of(soup_, a), area_of(soup_, b));
+        };
 
         for (std::uint32_t i = 0; i < soup_.face_count; i++) {
             cancel_check();
@@ -201,12 +216,12 @@ class connector
                 XXH3_64bits(set.vertex.data() + set.begin[i], set.size(i) * sizeof set.vertex[0]);
             if (!is_finite(soup_, i))
                 result_.non_finite_count++;
-            else if (set.size(i) < 3 || is_flat(soup_, i))
+            else if (set.size(i) < 3 || area_of(soup_, i).is_flat)
                 result_.degenerate_count++;
-            else if (seen.find_or_add(i, hash, [&set](std::uint32_t a, std::uint32_t b) {
-                         return set.equal(a, b);
-                     }) != i)
+            else if (seen_facing.find_or_add(i, hash, is_twin) != i)
                 result_.duplicate_count++;
+            else if (seen.find_or_add(i, hash, is_equal) != i)
+                result_.reversed_count++;
             else
                 is_sound[i] = true;
         }

@@ -9,14 +9,16 @@
 /* A face is counted once, under the first that fits, and then has no neighbours.
  *   non-finite     a nan or inf coordinate
  *   degenerate     fewer than three distinct vertices, or no area beyond rounding
- *   duplicate      the same vertices as an earlier face, in any order
+ *   duplicate      the same vertices as an earlier face, in any order, and facing as one of these does
+ *   reversed       the same vertices as an earlier face, facing the other way: the back of a sheet
  *   non-manifold   the third face at an edge, a face that disagrees with its neighbour on which
  *                  side is out, one that meets a vertex which earlier faces surround, or one that
  *                  comes back to a vertex */
 typedef struct mesh_connection {
     int32_t *neighbour; /* shape (first[face_count]): [first[i] + k] is the face beyond the edge
                          * from corner k of face i to the next one, -1 at a border */
-    uint32_t non_finite_count, degenerate_count, duplicate_count, non_manifold_count;
+    uint32_t non_finite_count, degenerate_count, duplicate_count, reversed_count,
+        non_manifold_count;
 } mesh_connection;
 
 /* Welds vertices whose coordinates are the same bits (-0 is 0) and finds the neighbours; faces keep

@@ -16,6 +16,7 @@ namespace
 /* The C record and the vectors that its pointers look into. */
 struct owned_mesh : mesh_file {
     mesh_soup soup;
+    std::string warning_text;
     std::vector<char *> object_names, part_names, material_names;
 };
 
@@ -23,6 +24,7 @@ void read_format(mesh_soup &soup, const std::string &path, std::string &text)
 {
     const std::string extension = std::filesystem::path(path).extension().string();
 
+    if (!mesh_text_is(extension, ".stl")) mesh_text_unify(text);
     if (mesh_text_is(extension, ".obj"))
         mesh_obj_read(soup, path, text);
     else if (mesh_text_is(extension, ".ply"))
@@ -49,9 +51,20 @@ std::uint32_t expose(std::vector<char *> &pointers, mesh_names &names)
     return static_cast<std::uint32_t>(pointers.size());
 }
 
+std::string joined(const std::vector<std::string> &texts, const char *between)
+{
+    std::string all;
+
+    for (const std::string &text : texts) all.append(all.empty() ? "" : between).append(text);
+    return all;
+}
+
 void expose(owned_mesh &mesh)
 {
     mesh_soup &soup = mesh.soup;
+
+    mesh.warning_text = joined(soup.warnings, "\n");
+    mesh.warnings = mesh.warning_text.c_str();
 
     mesh.vertex_count = static_cast<std::uint32_t>(soup.position.size());
     mesh.position = reinterpret_cast<double(*)[3]>(soup.position.data());
@@ -79,7 +92,9 @@ try {
     std::string text = file_text_load(path);
 
     read_format(soup, path, text);
-    if (!soup.face_count()) throw failure(std::string(path) + ": no faces");
+    if (!soup.face_count())
+        throw failure(std::string(path) + ": no faces" + (soup.warnings.empty() ? "" : ", but ") +
+                      joined(soup.warnings, ", "));
     fill(soup.object, soup.objects, soup.face_count(), mesh_soup_stem(path));
     fill(soup.part, soup.parts, soup.face_count(), mesh_soup_part);
     fill(soup.material, soup.materials, soup.face_count(), mesh_soup_material);

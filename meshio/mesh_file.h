@@ -28,11 +28,14 @@ typedef struct mesh_file {
     /* In the order of their first face; no name stands twice in a table. */
     uint32_t object_count, part_count, material_count;
     char **object_name, **part_name, **material_name;
+
+    const char *warnings; /* what was odd, and what was left out: lines without the path; "" */
 } mesh_file;
 
 /* Reads the mesh at `path`; its extension, in any case, says which format. Time is linear in the
  * size of the file. The caller releases *out with mesh_file_free; on failure *out is left as it
- * was. Refused are coordinates beyond MESH_FILE_LIMIT_M and a thickness that is neither 0, not
+ * was. Habits of writers that leave no
+ * doubt are taken with a warning, as docs/file-formats.md lists them. Refused are coordinates beyond MESH_FILE_LIMIT_M and a thickness that is neither 0, not
  * stated, nor 1e-4 to 1e4 cm.
  * Returns 0, or non-zero with a message in `message`: `path:line: what stood there, what was
  * expected`, or `path: ...` where there is no line (binary files, no faces, no such file). */

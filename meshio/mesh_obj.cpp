@@ -17,9 +17,50 @@
 #include <algorithm>
 #include <istream>
 #include <streambuf>
+#include <unordered_map>
 
 namespace
 {
+
+/* What stands in a line that holds neither a vertex nor a face. */
+enum class obj_kind { other, surface, curve, line, point, call, unknown };
+
+obj_kind kind_of(std::string_view keyword)
+{
+    static const std::unordered_map<std::string_view, obj_kind> known = {
+        {"surf", obj_kind::surface}, {"bsp", obj_kind::surface},      {"bzp", obj_kind::surface},
+        {"cdp", obj_kind::surface},  {"curv", obj_kind::curve},       {"curv2", obj_kind::curve},
+        {"cdc", obj_kind::curve},    {"l", obj_kind::line},           {"p", obj_kind::point},
+        {"call", obj_kind::call},    {"csh", obj_kind::call},         {"vt", obj_kind::other},
+        {"vn", obj_kind::other},     {"vp", obj_kind::other},         {"o", obj_kind::other},
+        {"g", obj_kind::other},      {"s", obj_kind::other},          {"mg", obj_kind::other},
+        {"deg", obj_kind::other},    {"bmat", obj_kind::other},       {"step", obj_kind::other},
+        {"parm", obj_kind::other},   {"trim", obj_kind::other},       {"hole", obj_kind::other},
+        {"scrv", obj_kind::other},   {"sp", obj_kind::other},         {"end", obj_kind::other},
+        {"con", obj_kind::other},    {"bevel", obj_kind::other},      {"lod", obj_kind::other},
+        {"cstype", obj_kind::other}, {"usemtl", obj_kind::other},     {"mtllib", obj_kind::other},
+        {"maplib", obj_kind::other}, {"usemap", obj_kind::other},     {"c_interp", obj_kind::other},
+        {"ctech", obj_kind::other},  {"shadow_obj", obj_kind::other}, {"d_interp", obj_kind::other},
+        {"stech", obj_kind::other},  {"trace_obj", obj_kind::other},  {"res", obj_kind::other}};
+    const auto found = known.find(keyword);
+
+    if (keyword.empty() || keyword[0] == '#') return obj_kind::other;
+    return found == known.end() ? obj_kind::unknown : found->second;
+}
+
+/* How many lines of each kind there are. */
+struct kind_counts {
+    std::size_t count[static_cast<std::size_t>(obj_kind::unknown) + 1] = {};
+
+    std::size_t &operator[](obj_kind kind)
+    {
+        return count[static_cast<std::size_t>(kind)];
+    }
+    std::size_t operator[](obj_kind kind) const
+    {
+        return count[static_cast<std::size_t>(kind)];
+    }
+};
 
 class obj_lines : public std::streambuf
 {
@@ -31,6 +72,18 @@ class obj_lines : public std::streambuf
     const mesh_text &where() const
     {
         return lines_;
+    }
+
+    /* Tells what was passed over. */
+    void warn(mesh_soup &soup) const
+    {
+        soup.warn_of(count_[obj_kind::surface], "free-form surfaces are left out");
+        soup.warn_of(count_[obj_kind::curve] + count_[obj_kind::line] + count_[obj_kind::point],
+                     "lines, curves and points have no area and are left out");
+        soup.warn_of(count_[obj_kind::call], "files that it calls are left out");
+        soup.warn_of(count_[obj_kind::unknown],
+                     "lines that are none of OBJ are passed over, the first is line " +
+                         std::to_string(unknown_line_));
     }
 
     /* The vertex of the `v` line handed out last. */
@@ -49,13 +102,17 @@ class obj_lines : public std::streambuf
         const std::string_view keyword = keyword_of(line);
         char *begin = text_.data() + (line.data() - text_.data());
 
-        if (keyword != "v" && keyword != "f") return hand_out(begin, line.size());
+        if (keyword != "v" && keyword != "f") {
+            take_note(keyword, line);
+            return hand_out(begin, line.size());
+        }
+        goes_on_ = false;
         if (line.back() == '\\') {
             joined_ = joined(line);
             line = joined_;
             begin = joined_.data();
         }
-        line = line.substr(0, line.find(" #"));
+        line = line.substr(0, line.find('#'));
         check(keyword, line);
         return hand_out(begin, line.size());
     }
@@ -66,7 +123,16 @@ class obj_lines : public std::streambuf
         return mesh_text_word(line);
     }
 
-    /* The byte after the line is its end, the blank before a comment, or the one that joined() put there. */
+    void take_note(std::string_view keyword, std::string_view line)
+    {
+        if (!goes_on_) {
+            const obj_kind kind = kind_of(keyword);
+            if (!count_[kind]++ && kind == obj_kind::unknown) unknown_line_ = lines_.line();
+        }
+        goes_on_ = !line.empty() && line.back() == '\\';
+    }
+
+    /* The byte after the line is its end, the begin of a comment, or the one that joined() put there. */
     int_type hand_out(char *begin, std::size_t size)
     {
         begin[size] = '\n';
@@ -115,6 +181,9 @@ class obj_lines : public std::streambuf
     std::string joined_;
     mesh_text lines_;
     std::array<double, 3> position_{};
+    bool goes_on_ = false; /* the line before ends in a backslash */
+    unsigned long unknown_line_ = 0;
+    kind_counts count_;
 };
 
 /* What the callbacks fill. */
@@ -221,6 +290,7 @@ tinyobj::callback_t callbacks()
 void mesh_obj_read(mesh_soup &soup, const std::string &path, std::string &text)
 {
     const tinyobj::callback_t callback = callbacks();
+    text.resize(text.find_last_not_of(mesh_text_padding) + 1);
     text += '\n';
     obj_lines lines(path, text);
     std::istream stream(&lines);
@@ -238,6 +308,7 @@ void mesh_obj_read(mesh_soup &soup, const std::string &path, std::string &text)
 
     stream.exceptions(std::ios::badbit);
     tinyobj::LoadObjWithCallback(stream, callback, &reader);
+    lines.warn(soup);
     for (const obj_reader::reference &one : reader.ahead)
         if (one.index > static_cast<long long>(soup.position.size()))
             throw failure(path + ":" + std::to_string(one.line) + ": vertex " +

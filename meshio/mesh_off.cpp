@@ -34,10 +34,21 @@ std::size_t read_count(const mesh_text &lines, std::string_view &row, const std:
     return static_cast<std::size_t>(count);
 }
 
-void read_keyword(const mesh_text &lines, std::string_view &row)
+/* The keyword may be missing, or the first count may be glued to it. */
+void read_keyword(mesh_soup &soup, const mesh_text &lines, std::string_view &row)
 {
-    const std::string_view word = mesh_text_word(row);
+    std::string_view rest_of_row = row;
+    std::string_view word = mesh_text_word(rest_of_row);
+    const std::size_t digits = word.find_first_of("0123456789");
 
+    if (digits == 0 && word.find_first_not_of("0123456789") == word.npos) return;
+    if (digits != word.npos && digits >= 3) {
+        row.remove_prefix(static_cast<std::size_t>(word.data() - row.data()) + digits);
+        word = word.substr(0, digits);
+        soup.warnings.push_back("the number of vertices is glued to " + std::string(word));
+    } else {
+        row = rest_of_row;
+    }
     if (word != "OFF" && word != "COFF" && word != "NOFF" && word != "CNOFF" && word != "STOFF" &&
         word != "STCOFF" && word != "STNOFF" && word != "STCNOFF")
         lines.fail(word, "OFF with three coordinates");
@@ -68,7 +79,7 @@ void mesh_off_read(mesh_soup &soup, const std::string &path, std::string_view te
     mesh_text lines(path, text);
     std::string_view row = need_row(lines, "OFF");
 
-    read_keyword(lines, row);
+    read_keyword(soup, lines, row);
     std::string_view rest = row;
     if (mesh_text_word(rest).empty())
         row = need_row(lines, "the numbers of vertices, faces and edges");

@@ -22,8 +22,13 @@ class ply_body
     virtual double next(ply_type type) = 0;
     [[noreturn]] virtual void fail(const std::string &what) const = 0;
 
-    /* Fails unless everything has been read. */
-    virtual void end() = 0;
+    /* Passes over what a row holds beyond its properties, where rows are told apart. */
+    virtual void end_row()
+    {
+    }
+
+    /* Fails unless everything has been read; warns of what follows without a meaning. */
+    virtual void end(mesh_soup &soup) = 0;
 
     std::size_t next_count(ply_type type)
     {
@@ -39,7 +44,8 @@ class ply_text : public ply_body
 {
   public:
     ply_text(const std::string &path, std::string_view text, const ply_header &header)
-        : lines_(path, text, header.end, header.line_count)
+        : lines_(path, text, header.end, header.line_count),
+          has_row_a_line_(line_count(lines_) == row_count(header))
     {
     }
 
@@ -47,8 +53,19 @@ class ply_text : public ply_body
     {
         const std::string_view word = next_word();
 
-        if (word.empty()) fail("the file ends here, expected the rows that the header promises");
+        if (word.empty())
+            fail(has_row_a_line_
+                     ? "the line ends here, expected the properties that the header promises"
+                     : "the file ends here, expected the rows that the header promises");
         return lines_.number(word);
+    }
+
+    void end_row() override
+    {
+        if (!has_row_a_line_) return;
+        surplus_count_ += !mesh_text_word(rest_).empty();
+        is_inside_ = false;
+        rest_ = {};
     }
 
     void fail(const std::string &what) const override
@@ -56,24 +73,49 @@ class ply_text : public ply_body
         lines_.fail(what);
     }
 
-    void end() override
+    void end(mesh_soup &soup) override
     {
+        is_inside_ = false;
         const std::string_view word = next_word();
 
         if (!word.empty())
             lines_.fail(word, "the end of the file after the rows that the header promises");
+        soup.warn_of(surplus_count_,
+                     "rows hold more than the header promises: the rest is passed over");
     }
 
   private:
+    static std::size_t line_count(mesh_text lines)
+    {
+        std::size_t count = 0;
+
+        for (std::string_view line; lines.next(line);) count += !mesh_text_word(line).empty();
+        return count;
+    }
+
+    static std::size_t row_count(const ply_header &header)
+    {
+        std::size_t count = 0;
+
+        for (const ply_element &element : header.elements) count += element.count;
+        return count;
+    }
+
     std::string_view next_word()
     {
         std::string_view word;
 
-        while ((word = mesh_text_word(rest_)).empty() && lines_.next(rest_)) continue;
+        while ((word = mesh_text_word(rest_)).empty() && !(has_row_a_line_ && is_inside_) &&
+               lines_.next(rest_))
+            continue;
+        is_inside_ = true;
         return word;
     }
 
     mesh_text lines_;
+    bool has_row_a_line_; /* as many lines as rows: then a line is a row */
+    bool is_inside_ = false;
+    std::size_t surplus_count_ = 0;
     std::string_view rest_;
 };
 
@@ -114,10 +156,14 @@ class ply_binary : public ply_body
         throw failure(path_ + ": " + what);
     }
 
-    void end() override
+    void end(mesh_soup &soup) override
     {
-        if (rest_.find_first_not_of(" \r\n") != rest_.npos)
+        const std::string_view blank(" \r\n\0\x1a", 5);
+
+        if (rest_.find_first_not_of(blank) != rest_.npos)
             fail(std::to_string(rest_.size()) + " bytes after the rows that the header promises");
+        if (rest_.find('\0') != rest_.npos)
+            soup.warn_of(rest_.size(), "bytes without a meaning follow the rows");
     }
 
   private:
@@ -170,6 +216,16 @@ void read_vertex(mesh_soup &soup, ply_body &body, const ply_element &element)
     soup.position.push_back(point);
 }
 
+std::uint32_t vertex_number(const mesh_soup &soup, const ply_body &body, double index,
+                            std::size_t vertex_count)
+{
+    if (!(index >= 0) || index >= static_cast<double>(vertex_count) || index != std::floor(index))
+        body.fail("face " + std::to_string(soup.face_count()) + ": vertex " +
+                  mesh_text_shown(index) + ", expected one of 0 to " +
+                  std::to_string(vertex_count - 1));
+    return static_cast<std::uint32_t>(index);
+}
+
 void read_corners(mesh_soup &soup, ply_body &body, const ply_property &property,
                   std::size_t vertex_count)
 {
@@ -178,12 +234,7 @@ void read_corners(mesh_soup &soup, ply_body &body, const ply_property &property,
     if (count < 3) body.fail("a face of " + std::to_string(count) + " corners, expected 3 or more");
     for (std::size_t i = 0; i < count; i++) {
         const double index = body.next(property.type);
-        if (!(index >= 0) || index >= static_cast<double>(vertex_count) ||
-            index != std::floor(index))
-            body.fail("face " + std::to_string(soup.face_count()) + ": vertex " +
-                      mesh_text_shown(index) + ", expected one of 0 to " +
-                      std::to_string(vertex_count - 1));
-        soup.corner.push_back(static_cast<std::uint32_t>(index));
+        soup.corner.push_back(vertex_number(soup, body, index, vertex_count));
     }
     soup.end_face();
 }
@@ -253,12 +304,58 @@ void check(const ply_header &header, const std::string &path)
     for (const char *name : {"x", "y", "z"})
         if (count_of(*vertex, name) != 1)
             throw failure(path + ": element vertex, expected one property " + name);
-    if (!face) throw failure(path + ": no faces");
+    if (!face) return;
     if (count_of(*face, "vertex_indices") + count_of(*face, "vertex_index") != 1)
         throw failure(path + ": element face, expected one property list vertex_indices");
     for (const char *name : {"material", "thickness"})
         if (count_of(*face, name) > 1)
             throw failure(path + ": element face, property " + name + " twice");
+}
+
+/* Triangles of strips, which -1 ends; every second one turns the other way. */
+void read_strips(mesh_soup &soup, ply_body &body, const ply_property &property,
+                 std::size_t vertex_count)
+{
+    std::size_t length = 0;
+    std::uint32_t last[2] = {};
+
+    for (std::size_t i = body.next_count(property.count_type); i > 0; i--) {
+        const double index = body.next(property.type);
+        if (index < 0) {
+            length = 0;
+            continue;
+        }
+        const std::uint32_t corner = vertex_number(soup, body, index, vertex_count);
+        if (length++ >= 2) {
+            const bool is_odd = length % 2 == 0;
+            soup.corner.insert(soup.corner.end(), {last[is_odd], last[!is_odd], corner});
+            soup.end_face();
+        }
+        last[0] = last[1];
+        last[1] = corner;
+    }
+}
+
+void read_rows(mesh_soup &soup, ply_body &body, const ply_header &header)
+{
+    const ply_element *vertex = find(header, "vertex"), *face = find(header, "face"),
+                      *strips = face && face->count ? nullptr : find(header, "tristrips");
+
+    for (const ply_element &element : header.elements)
+        for (std::size_t row = 0; row < element.count; row++) {
+            cancel_check();
+            if (&element == vertex)
+                read_vertex(soup, body, element);
+            else if (&element == face)
+                read_face(soup, body, element, vertex->count);
+            else
+                for (const ply_property &property : element.properties)
+                    if (&element == strips && is_corners(property))
+                        read_strips(soup, body, property, vertex->count);
+                    else
+                        skip(body, property);
+            body.end_row();
+        }
 }
 
 } // namespace
@@ -269,21 +366,16 @@ void mesh_ply_read(mesh_soup &soup, const std::string &path, std::string_view te
     std::unique_ptr<ply_body> body;
 
     check(header, path);
+    soup.warn_of(header.unknown_count, "lines of the header are none of PLY, and passed over");
+    const ply_element *face = find(header, "face"), *strips = find(header, "tristrips");
+    if (!(face && face->count) && !(strips && strips->count)) {
+        soup.warn_of(find(header, "vertex")->count, "points: expected faces between them");
+        return;
+    }
     if (header.format == ply_format::text)
         body = std::make_unique<ply_text>(path, text, header);
     else
         body = std::make_unique<ply_binary>(path, text, header);
-
-    const ply_element *vertex = find(header, "vertex"), *face = find(header, "face");
-    for (const ply_element &element : header.elements)
-        for (std::size_t row = 0; row < element.count; row++) {
-            cancel_check();
-            if (&element == vertex)
-                read_vertex(soup, *body, element);
-            else if (&element == face)
-                read_face(soup, *body, element, vertex->count);
-            else
-                for (const ply_property &property : element.properties) skip(*body, property);
-        }
-    body->end();
+    read_rows(soup, *body, header);
+    body->end(soup);
 }

@@ -33,6 +33,13 @@ struct mesh_soup {
         material;                    /* a reader without a kind of name leaves that list empty */
     std::vector<float> thickness_cm; /* empty without it */
     mesh_names objects, parts, materials;
+    std::vector<std::string> warnings; /* of what was odd, and of what was left out */
+
+    /* Warns of `count` things, unless there are none. */
+    void warn_of(std::size_t count, const std::string &what)
+    {
+        if (count) warnings.push_back(std::to_string(count) + " " + what);
+    }
 
     /* Closes the face made of the corners that were appended since the last one. */
     void end_face()

@@ -22,9 +22,9 @@ std::uint32_t binary_count(std::string_view text)
 }
 
 void read_binary(mesh_soup &soup, const std::string &path, std::string_view text,
-                 std::uint32_t facet_count)
+                 std::size_t facet_count)
 {
-    for (std::uint32_t facet = 0; facet < facet_count; facet++) {
+    for (std::size_t facet = 0; facet < facet_count; facet++) {
         const char *vertex =
             text.data() + header_size + facet * facet_size + 12; /* behind the normal */
         cancel_check();
@@ -97,19 +97,46 @@ void read_text(mesh_soup &soup, mesh_text &lines)
     if (is_inside) lines.fail("the file ends here, expected facet or endsolid");
 }
 
+/* How many facets a binary file holds. Writers that stream leave the count 0 or at its largest, others fill
+ * the file up. */
+std::size_t facets_there(mesh_soup &soup, const std::string &path, std::string_view text)
+{
+    const std::size_t promised = binary_count(text), size = text.size() - header_size;
+    const std::size_t held = size / facet_size, wanted = promised * facet_size;
+
+    if (size == wanted) return promised;
+    if (size > wanted && promised > 0 &&
+        (size - wanted < facet_size ||
+         text.find_first_not_of('\0', header_size + wanted) == text.npos)) {
+        soup.warn_of(size - wanted, "bytes follow the " + std::to_string(promised) +
+                                        " facets that the header promises");
+        return promised;
+    }
+    if (size % facet_size == 0 && held > 0 && (promised < held || promised == UINT32_MAX)) {
+        soup.warn_of(held, "facets are there, the header promises " + std::to_string(promised));
+        return held;
+    }
+    throw failure(path + ": " + std::to_string(text.size()) + " bytes, expected " +
+                  std::to_string(header_size + wanted) + " for the " + std::to_string(promised) +
+                  " facets that the header promises");
+}
+
+bool is_text(std::string_view text)
+{
+    const std::size_t end = text.find_last_not_of(mesh_text_padding) + 1;
+
+    return text.substr(0, end).find('\0') == text.npos;
+}
+
 } // namespace
 
 void mesh_stl_read(mesh_soup &soup, const std::string &path, std::string_view text)
 {
     const bool has_header = text.size() >= header_size;
-    const std::uint32_t facet_count = has_header ? binary_count(text) : 0;
 
-    if (has_header && text.size() == header_size + facet_count * facet_size)
-        return read_binary(soup, path, text, facet_count);
-    if (text.find('\0') != text.npos && has_header)
-        throw failure(path + ": " + std::to_string(text.size()) + " bytes, expected " +
-                      std::to_string(header_size + facet_count * facet_size) + " for the " +
-                      std::to_string(facet_count) + " facets that the header promises");
+    if (has_header &&
+        (!is_text(text) || text.size() == header_size + binary_count(text) * facet_size))
+        return read_binary(soup, path, text, facets_there(soup, path, text));
     mesh_text lines(path, text);
     read_text(soup, lines);
 }

@@ -5,6 +5,7 @@
 #include "mesh_soup.hpp"
 
 #include <charconv>
+#include <cstdint>
 #include <cstdio>
 
 namespace
@@ -24,6 +25,15 @@ template <typename T> bool parse(std::string_view word, T &value)
     const std::from_chars_result result = std::from_chars(digits.data(), end, value);
 
     return result.ec == std::errc() && result.ptr == end;
+}
+
+void append_utf8(std::string &out, std::uint32_t code)
+{
+    const int more = code < 0x80 ? 0 : code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+    static const std::uint32_t lead[] = {0, 0xc0, 0xe0, 0xf0};
+
+    out += static_cast<char>(lead[more] | code >> (6 * more));
+    for (int i = more - 1; i >= 0; i--) out += static_cast<char>(0x80 | (code >> (6 * i) & 0x3f));
 }
 
 } // namespace
@@ -50,6 +60,30 @@ bool mesh_text_is(std::string_view word, std::string_view keyword)
     return true;
 }
 
+void mesh_text_unify(std::string &text)
+{
+    const bool is_big = text.compare(0, 2, "\xfe\xff") == 0;
+    std::string out;
+
+    if (!is_big && text.compare(0, 2, "\xff\xfe") != 0) return;
+    const auto unit_at = [&](std::size_t at) {
+        const auto byte = [&](std::size_t i) {
+            return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i]));
+        };
+        if (at + 1 >= text.size()) return std::uint32_t{0};
+        return is_big ? byte(at) << 8 | byte(at + 1) : byte(at + 1) << 8 | byte(at);
+    };
+    for (std::size_t at = 2; at + 1 < text.size(); at += 2) {
+        std::uint32_t code = unit_at(at);
+        if (code >> 10 == 0x36 && unit_at(at + 2) >> 10 == 0x37) { /* a pair of surrogates */
+            at += 2;
+            code = 0x10000 + ((code & 0x3ff) << 10 | (unit_at(at) & 0x3ff));
+        }
+        append_utf8(out, code);
+    }
+    text = std::move(out);
+}
+
 std::string mesh_text_shown(double number)
 {
     char text[32];
@@ -64,6 +98,7 @@ mesh_text::mesh_text(std::string path, std::string_view text, std::size_t begin,
 {
     if (!begin && text.substr(0, 3) == "\xef\xbb\xbf")
         position_ = 3; /* the byte order mark of UTF-8 */
+    text_ = text_.substr(0, text_.find_last_not_of(mesh_text_padding) + 1);
 }
 
 bool mesh_text::next(std::string_view &line)

@@ -12,6 +12,12 @@ std::string_view mesh_text_word(std::string_view &rest);
 /* True where `word` is `keyword`, which is in lower case, in any case. */
 bool mesh_text_is(std::string_view word, std::string_view keyword);
 
+/* What may stand behind the end of a text: zero bytes and Control-Z. */
+constexpr std::string_view mesh_text_padding("\0\x1a", 2);
+
+/* Turns a text in UTF-16, as its byte order mark says, into UTF-8; leaves all others as they are. */
+void mesh_text_unify(std::string &text);
+
 /* A number in messages, ten digits at most. */
 std::string mesh_text_shown(double number);
 
@@ -20,7 +26,7 @@ class mesh_text
   public:
     /* Reads `text`, which outlives this object, from the byte `begin`, before which there are
      * `line_count` lines. Lines end at
-     * "\n", "\r\n" or "\r" and count from 1. */
+     * "\n", "\r\n" or "\r" and count from 1. Padding at the end is no text. */
     mesh_text(std::string path, std::string_view text, std::size_t begin = 0,
               unsigned long line_count = 0);
 

@@ -65,7 +65,7 @@ ply_header ply_header_read(const std::string &path, std::string_view text)
     std::string_view rest, keyword;
     bool has_format = false;
 
-    if (!lines.next(rest) || mesh_text_word(rest) != "ply")
+    if (!lines.next(rest) || !mesh_text_is(mesh_text_word(rest), "ply"))
         lines.fail("expected a first line \"ply\"");
     while (lines.next(rest) && (keyword = mesh_text_word(rest)) != "end_header") {
         if (keyword == "format") {
@@ -75,8 +75,10 @@ ply_header ply_header_read(const std::string &path, std::string_view text)
             header.elements.push_back(element_of(lines, rest, text.size()));
         } else if (keyword == "property" && !header.elements.empty()) {
             header.elements.back().properties.push_back(property_of(lines, rest));
-        } else if (keyword != "comment" && keyword != "obj_info") {
-            lines.fail(keyword, "format, element, property, comment or end_header");
+        } else if (keyword == "property" || keyword == "ply") {
+            lines.fail(keyword, "format or element");
+        } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
+            header.unknown_count++;
         }
     }
     if (keyword != "end_header") lines.fail("the file ends here, expected end_header");

@@ -27,6 +27,7 @@ struct ply_header {
     std::vector<ply_element> elements;
     std::size_t end; /* the byte at which the elements begin */
     unsigned long line_count;
+    std::size_t unknown_count; /* lines that are none of a header, passed over */
 };
 
 /* Throws failure `path:line: ...`; an element of more rows than `text` has bytes is refused. */

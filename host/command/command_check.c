@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { NAME_SIZE = 4096 };
 
@@ -101,6 +102,20 @@ static void print_materials(const scene *s)
     }
 }
 
+/* Names of meshes that are called otherwise in the scene. */
+static void print_aliases(const scene *s)
+{
+    char from[NAME_SIZE], to[NAME_SIZE];
+
+    for (uint32_t i = 0; i < s->shape->material_count; i++) {
+        const char *name = s->shape->materials[i].name;
+        const char *own = s->materials[s->material_of[i]].name;
+        if (strcmp(name, own) != 0)
+            printf("alias       %s is %s\n", terminal_text_copy(from, sizeof from, name),
+                   terminal_text_copy(to, sizeof to, own));
+    }
+}
+
 static void print_sensor(const scene *s)
 {
     const view *v = &s->camera;
@@ -146,6 +161,7 @@ static void print_summary(const scene *s)
     print_atmosphere(s);
     print_geometry(s);
     print_materials(s);
+    print_aliases(s);
     print_sensor(s);
     for (size_t i = 0; i < s->input_count; i++)
         printf("input       %s\n", terminal_text_copy(name, sizeof name, s->inputs[i].name));

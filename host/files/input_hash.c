@@ -5,6 +5,7 @@
 #include "base/name_table.h"
 #include "meshio/input_file.h"
 
+#include <errno.h>
 #include <nettle/sha2.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -102,7 +103,7 @@ static status hash_file(const char *path, input_hash *out)
         sha256_update(&context, got, chunk);
         bytes += got;
     }
-    NEED(!ferror(file), STATUS_FILE, "%s: cannot be read", path);
+    NEED(!ferror(file), STATUS_FILE, "%s: cannot be read: %s", path, strerror(errno));
     finish(&context, bytes, out);
 out:
     if (file) fclose(file);

@@ -15,7 +15,8 @@ typedef struct emissivity {
     float value[EMISSIVITY_ANGLES][EMISSIVITY_WAVENUMBERS]; /* 0..1 */
 } emissivity;
 
-/* Reads an .ems file; leading lines that start with '#' are passed over. */
+/* Reads an .ems file; leading lines that start with '#' are passed over. Values beyond 0
+ * and 1 by 0.02 at most are cut there, with a warning. */
 status emissivity_read(emissivity **out, const char *path);
 void emissivity_free(emissivity *e);
 

@@ -6,15 +6,18 @@
 #define PER_KM 1e-3        /* per metre */
 #define LARGEST_PER_KM 1e6 /* 1 per mm */
 
+static const wavenumber_value value = {"an extinction per km", LARGEST_PER_KM, 0.0};
+
 static status read_rows(extinction *e, record_file *file)
 {
     status rc = STATUS_OK;
     double broad_band_per_km;
+    size_t cut_count = 0;
 
     TRY(record_file_number(file, 0.0, LARGEST_PER_KM, &broad_band_per_km,
                            "the broad-band extinction per km"));
     e->broad_band_per_m = broad_band_per_km * PER_KM;
-    TRY(wavenumber_rows_read(file, "an extinction per km", LARGEST_PER_KM, e->per_m));
+    TRY(wavenumber_rows_read(file, &value, e->per_m, &cut_count));
     for (int i = 0; i < EXTINCTION_WAVENUMBERS; i++) e->per_m[i] *= PER_KM;
 out:
     return rc;

@@ -1,5 +1,6 @@
 #include "material/material.h"
 
+#include "base/utf8_text.h"
 #include "files/record_file.h"
 
 #include <ctype.h>
@@ -34,12 +35,29 @@ out:
     return rc;
 }
 
+/* Whatever the file is in, the name is UTF-8. */
+static status set_utf8(char *name, size_t size, const record_file *file)
+{
+    status rc = STATUS_OK;
+    char *copy = utf8_text_copy(name);
+
+    NEED(copy, STATUS_MEMORY, "no memory for a material's name");
+    if (strlen(copy) >= size)
+        rc = record_file_reject(file, "a material's name of fewer than %zu bytes in UTF-8", size);
+    else
+        strcpy(name, copy);
+out:
+    free(copy);
+    return rc;
+}
+
 static status read_identity(material *m, const material_library *before, record_file *file)
 {
     status rc = STATUS_OK;
     long code;
 
     TRY(read_name(file, m->name, sizeof m->name, "a material's name"));
+    TRY(set_utf8(m->name, sizeof m->name, file));
     if (material_by_name(before, m->name)) {
         rc = record_file_reject(file, "a name that no earlier material has");
         goto out;

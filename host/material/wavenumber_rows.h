@@ -11,9 +11,17 @@ enum {
     WAVENUMBER_ROWS_STEP_CM1 = 100
 };
 
-/* Takes the rows, each a wavenumber and a value from 0 to `most`. Fails with STATUS_FORMAT.
- *   what   the value, for messages: "an emissivity"
- *   out    shape (WAVENUMBER_ROWS) */
-status wavenumber_rows_read(record_file *file, const char *what, double most, double *out);
+/* What a value is, and how far it reaches. */
+typedef struct wavenumber_value {
+    const char *what; /* for messages: "an emissivity" */
+    double most;      /* values are 0 .. most */
+    double noise;     /* a measurement goes so far beyond; it is cut there */
+} wavenumber_value;
+
+/* Takes the rows, each a wavenumber and a value. Fails with STATUS_FORMAT.
+ *   out             shape (WAVENUMBER_ROWS)
+ *   out_cut_count   grows by the values that were noise */
+status wavenumber_rows_read(record_file *file, const wavenumber_value *value, double *out,
+                            size_t *out_cut_count);
 
 #endif

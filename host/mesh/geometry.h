@@ -19,7 +19,7 @@ typedef struct geometry_instance {
     double power_w_m2;    /* for faces that state none */
 } geometry_instance;
 
-/* A material as the files name it: .gdb by code and name, the others by name. */
+/* Names of objects, parts and materials are UTF-8 whatever the file is in. A material as the files name it: .gdb by code and name, the others by name. */
 typedef struct geometry_material {
     char *name;
     int code;             /* -1: not stated */

@@ -3,6 +3,7 @@
 #include "base/array.h"
 #include "base/interrupt.h"
 #include "base/name_table.h"
+#include "base/utf8_text.h"
 #include "mesh/facet_shape.h"
 #include "mesh/polygon.h"
 #include "meshio/mesh_connect.h"
@@ -110,7 +111,7 @@ static status add_name(char ***names, uint32_t *count, const char *name)
     status rc = STATUS_OK;
 
     NEED(array_add(names, *count, sizeof **names), STATUS_MEMORY, "no memory for names");
-    (*names)[*count] = strdup(name);
+    (*names)[*count] = utf8_text_copy(name);
     NEED((*names)[*count], STATUS_MEMORY, "no memory for names");
     ++*count;
 out:
@@ -177,7 +178,8 @@ static status find_material(geometry_builder *builder, const geometry_source_fac
     NEED(array_add(&g->materials, g->material_count, sizeof *g->materials), STATUS_MEMORY,
          "no memory for materials");
     added = &g->materials[g->material_count];
-    *added = (geometry_material){strdup(face->material), face->material_code, g->facet_count, path};
+    *added = (geometry_material){utf8_text_copy(face->material), face->material_code,
+                                 g->facet_count, path};
     NEED(added->name, STATUS_MEMORY, "no memory for materials");
     g->material_count++;
 out:

@@ -7,6 +7,7 @@
 #include "meshio/mesh_file.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 struct geometry_source {
     geometry_file *file;    /* of a .gdb */
@@ -26,6 +27,16 @@ out:
     return rc;
 }
 
+/* Warns line by line. */
+static void warn_of(const char *path, const char *warnings)
+{
+    for (const char *line = warnings; *line;) {
+        const size_t length = strcspn(line, "\n");
+        status_warn("%s: %.*s", path, (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+}
+
 static status read_mesh(geometry_source *source, const char *path)
 {
     status rc = STATUS_OK;
@@ -35,6 +46,7 @@ static status read_mesh(geometry_source *source, const char *path)
     const int failed = mesh_file_read(&source->mesh, path, message, sizeof message);
     TRY(interrupt_check());
     NEED(!failed, STATUS_FORMAT, "%s", message);
+    warn_of(path, source->mesh->warnings);
 out:
     return rc;
 }

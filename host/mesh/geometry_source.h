@@ -19,7 +19,7 @@ typedef struct geometry_source_face {
     double stated_temperature_k;          /* 0: to be computed */
 } geometry_source_face;
 
-/* Reads .gdb through geometry_file and all else through meshio. */
+/* Reads .gdb through geometry_file and all else through meshio, whose warnings are told. */
 status geometry_source_read(geometry_source **out, const char *path);
 void geometry_source_free(geometry_source *source);
 

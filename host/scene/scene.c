@@ -13,8 +13,8 @@
 static void check_tables(scene_reader *reader)
 {
     static const char *const known[] = {"name",     "site",    "weather",  "atmosphere",
-                                        "geometry", "library", "material", "camera",
-                                        "band",     "render",  "sensor"};
+                                        "geometry", "library", "material", "materials",
+                                        "camera",   "band",    "render",   "sensor"};
     static const char *const needed[] = {"site", "atmosphere", "camera"};
     scene_table t = scene_table_open(reader, reader->root, "scene");
 

@@ -2,6 +2,7 @@
 
 #include "base/name_table.h"
 #include "material/material.h"
+#include "scene/material_alias.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -32,6 +33,7 @@ typedef struct material_sources {
     size_t stated_count;
     name_table *stated_numbers; /* of the stated, then of what was looked up among them */
     name_table *used_numbers;   /* of the scene's materials */
+    material_aliases *aliases;
 } material_sources;
 
 /* Numbers a name; UINT32_MAX after a failure. */
@@ -276,17 +278,51 @@ static uint32_t add_material(const material_sources *from, const char *name, con
     return s->material_count++;
 }
 
-static void fail_unknown(const material_sources *from, const char *name, const char *user)
+/* The known name that is nearest to one that is not, as spelling_hint writes it. */
+static const char *hint_for(const material_sources *from, const char *name,
+                            char hint[SPELLING_HINT_SIZE])
 {
     spelling near = spelling_of(name);
-    char hint[SPELLING_HINT_SIZE];
 
     for (size_t i = 0; from->reader->failure_count < HINTS && i < from->stated_count; i++)
         spelling_offer(&near, from->stated[i].name);
     if (from->library) material_offer_names(from->library, &near);
+    return spelling_hint(&near, "", hint);
+}
+
+static void fail_unknown(const material_sources *from, const char *name, const char *user)
+{
+    char hint[SPELLING_HINT_SIZE];
+
     scene_fail(from->reader, from->library_node,
-               "%s: material \"%s\" is neither in the library nor a [[material]]%s", user, name,
-               spelling_hint(&near, "", hint));
+               "%s: material \"%s\" is neither in the library nor a [[material]]%s%s", user, name,
+               from->aliases->count ? ", and no alias matches it" : "", hint_for(from, name, hint));
+}
+
+static bool is_known(const material_sources *from, const char *name, int code)
+{
+    if (find_stated(from, name)) return true;
+    if (!from->library) return false;
+    return code >= 0 ? material_by_code(from->library, code) != NULL
+                     : material_by_name(from->library, name) != NULL;
+}
+
+/* Every alias leads to a material, whether a mesh needs it or not. */
+static void check_aliases(const material_sources *from)
+{
+    char where[512], hint[SPELLING_HINT_SIZE];
+
+    if (from->library_node && !from->library) return; /* that has been told */
+    for (size_t i = 0; i < from->aliases->count; i++) {
+        const material_alias *a = &from->aliases->item[i];
+        if (is_known(from, a->material, -1)) continue;
+        material_alias_where(from->aliases, a, where, sizeof where);
+        scene_took(from->reader,
+                   status_set(STATUS_FORMAT,
+                              "%s: alias \"%s\": material \"%s\" is neither in the library nor a "
+                              "[[material]]%s",
+                              where, a->pattern, a->material, hint_for(from, a->material, hint)));
+    }
 }
 
 /* Finds a material by code, or by name where the code is -1; adds it at its first use.
@@ -295,13 +331,20 @@ static uint32_t use_material(const material_sources *from, const char *name, int
                              const char *user)
 {
     scene *s = from->reader->s;
-    const stated_material *stated = find_stated(from, name);
     const material *known = NULL;
+    const material_alias *alias =
+        material_aliases_find(from->aliases, name, is_known(from, name, code));
 
+    if (alias) {
+        name = alias->material;
+        code = -1;
+    }
+    const stated_material *stated = find_stated(from, name);
     if (from->library)
         known = code >= 0 && !stated ? material_by_code(from->library, code)
                                      : material_by_name(from->library, name);
     if (!known && !stated) {
+        if (alias) return RECORD_NONE;                                /* check_aliases tells it */
         if (from->library_node && !from->library) return RECORD_NONE; /* that has been told */
         if (code >= 0)
             scene_fail(from->reader, from->library_node,
@@ -349,23 +392,28 @@ static void use_all(const material_sources *from, const char *ground_material)
             use_material(from, g->materials[i].name, g->materials[i].code, g->materials[i].path);
     if (ground_material)
         s->ground_material = use_material(from, ground_material, -1, "ground_material");
+    material_aliases_warn(from->aliases, g);
     place_rows(s);
 }
 
 void scene_read_materials(scene_reader *reader, const char *ground_material)
 {
-    material_sources from = {.reader = reader};
+    material_aliases aliases = {0};
+    material_sources from = {.reader = reader, .aliases = &aliases};
 
     if (!scene_took(reader, name_table_open(&from.stated_numbers)) ||
         !scene_took(reader, name_table_open(&from.used_numbers)))
         goto out;
     read_library(&from);
     read_all_stated(&from);
+    material_aliases_read(&aliases, reader);
+    check_aliases(&from);
     if (reader->s->shape) use_all(&from, ground_material);
 out:
     name_table_free(from.used_numbers);
     name_table_free(from.stated_numbers);
     material_library_free(from.library);
+    material_aliases_free(&aliases);
     free(from.library_folder);
     free(from.stated);
 }

@@ -10,6 +10,8 @@
 
 static const double LEAST_UM = 0.2, MOST_UM = 50.0;
 
+#define NOISE_SHARE .05 /* of the peak, below 0 */
+
 /* A Gaussian's points: every 1/128 of its width, 2 widths to both sides. */
 enum { GAUSSIAN_PER_WIDTH = 128, GAUSSIAN_WIDTHS = 2, POINT_LIMIT = 1 << 16, HEADING_SIZE = 64 };
 
@@ -96,25 +98,58 @@ static double in_um(unit of, double x)
     return of == UNIT_UM ? x : of == UNIT_NM ? 1e-3 * x : 1e4 / x;
 }
 
-static status read_point(response *r, unit of, record_file *file)
+/* Which way the wavelengths of the first points run: 1, -1, or 0 while they are the same. */
+static int direction(const response *r, int count)
+{
+    const double *const l = r->wavelength_um;
+
+    return count < 2 ? 0 : (l[count - 1] > l[0]) - (l[count - 1] < l[0]);
+}
+
+/* Of a third point at one wavelength the middle one goes. */
+static void join_steps(response *r)
+{
+    const int n = r->count;
+    const double *const l = r->wavelength_um;
+
+    if (n < 3 || l[n - 1] != l[n - 2] || l[n - 2] != l[n - 3]) return;
+    r->value[n - 2] = r->value[n - 1];
+    r->count--;
+}
+
+static status read_point(response *r, unit of, double *lowest, record_file *file)
 {
     status rc = STATUS_OK;
-    const int n = r->count;
+    const int n = r->count, before = direction(r, n);
     double *const l = r->wavelength_um;
     double pair[2];
 
     TRY(record_file_numbers(file, 2, pair, "a wavelength and a response"));
     l[n] = in_um(of, pair[0]);
     r->value[n] = pair[1];
+    *lowest = fmin(*lowest, pair[1]);
     if (!(l[n] >= LEAST_UM && l[n] <= MOST_UM))
         rc = record_file_reject(file, "a wavelength of 0.2 to 50 um");
-    else if (pair[1] < 0.0)
-        rc = record_file_reject(file, "a response of 0 or more");
-    else if ((n > 0 && l[n] == l[n - 1]) || (n > 1 && (l[n] > l[n - 1]) != (l[1] > l[0])))
+    else if (n > 0 && before != 0 && (l[n] - l[n - 1]) * before < 0.0)
         rc = record_file_reject(file, "wavelengths that only rise or only fall");
     r->count++;
+    join_steps(r);
 out:
     return rc;
+}
+
+/* A detector's noise goes below 0 where the filter is shut. */
+static status clear_noise(response *r, double lowest, double peak, const record_file *file,
+                          const char *path)
+{
+    if (lowest < -NOISE_SHARE * peak)
+        return record_file_reject(file, "a response of 0 or more, but for noise: the lowest is %g",
+                                  lowest);
+    if (lowest < 0.0)
+        status_warn("%s: responses below 0, down to %g of a peak of %g, are taken as 0", path,
+                    lowest, peak);
+    for (int i = 0; i < r->count; i++) r->value[i] = fmax(r->value[i], 0.0) / peak;
+    return STATUS_OK;
 }
 
 static void turn_round(double *values, int count)
@@ -126,25 +161,29 @@ static void turn_round(double *values, int count)
     }
 }
 
-static status read_points(response *r, unit of, record_file *file)
+static status read_points(response *r, unit of, record_file *file, const char *path)
 {
     status rc = STATUS_OK;
-    double peak = 0.0;
+    double peak = 0.0, lowest = 0.0;
 
     while (r->count < 2 || !record_file_at_end(file)) {
         if (r->count == POINT_LIMIT) {
             rc = record_file_reject(file, "at most %d points", POINT_LIMIT);
             goto out;
         }
-        TRY(read_point(r, of, file));
+        TRY(read_point(r, of, &lowest, file));
         peak = fmax(peak, r->value[r->count - 1]);
     }
     if (!(peak > 0.0)) {
         rc = record_file_reject(file, "a response above 0 in one of the lines");
         goto out;
     }
-    for (int i = 0; i < r->count; i++) r->value[i] /= peak;
-    if (r->wavelength_um[0] < r->wavelength_um[1]) goto out;
+    if (direction(r, r->count) == 0) {
+        rc = record_file_reject(file, "wavelengths that only rise or only fall");
+        goto out;
+    }
+    TRY(clear_noise(r, lowest, peak, file, path));
+    if (direction(r, r->count) > 0) goto out;
     turn_round(r->wavelength_um, r->count);
     turn_round(r->value, r->count);
 out:
@@ -161,7 +200,7 @@ status response_read(response **out, const char *path)
     TRY(record_file_open(&file, path));
     TRY(allocate(&r, POINT_LIMIT));
     TRY(read_unit(&of, file));
-    TRY(read_points(r, of, file));
+    TRY(read_points(r, of, file, path));
     *out = r;
     r = NULL;
 out:
@@ -206,6 +245,7 @@ static double on_piece(const response *r, int piece, double wavelength_um)
 {
     const double *l = r->wavelength_um + piece, *v = r->value + piece;
 
+    if (l[1] == l[0]) return v[1];
     return v[0] + (wavelength_um - l[0]) / (l[1] - l[0]) * (v[1] - v[0]);
 }
 

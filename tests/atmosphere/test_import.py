@@ -69,7 +69,7 @@ def test_what_was_imported_can_be_shown(atmosphere, folder):
     ("sun.tp7", "SOLAR", "LUNAR", "expected a column SOLAR"),
     ("sky.tp7", "  FREQ", "  WAVELENGTH", "a head that starts with FREQ"),
     ("sky.tp7", " 850.00", " 851.00", "rise evenly"),
-    ("sky.tp7", "1000.00", "", "columns of numbers"),
+    ("sky.tp7", "1000.00", "       ", "columns of numbers"),
     ("manifest.toml", '"path_0.tp7", ', "", "path: found 1, expected 2"),
     ("manifest.toml", "sensor_altitude_m", "sensor_height_m", "sensor_altitude_m: missing"),
     ("manifest.toml", "south.tp7", "west.tp7", "west.tp7"),

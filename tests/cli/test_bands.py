@@ -54,6 +54,42 @@ def test_a_black_plane_appears_at_its_own_temperature_through_a_filter(program, 
     assert got.planes["apparent_temperature_b_c"] == pytest.approx(26.85, abs=0.01)
 
 
+@pytest.mark.parametrize("rows", [
+    "8,0\n8,1\n12,1\n12,0\n", "12,0\n12,1\n8,1\n8,0\n", "8,1\n8,1\n12,1\n12,1\n",
+    "7.9,0\n8,0\n8,.5\n8,1\n9,1\n9,1\n9,1\n12,1\n12,0\n12.1,0\n"])
+def test_a_wavelength_that_comes_twice_is_a_step(program, tmp_path, rows):
+    (tmp_path / "filter.csv").write_text("wavelength_um,response\n" + rows)
+    (tmp_path / "wide.csv").write_text("wavelength_um,response\n8,1\n12,1\n")
+
+    got = program.render(tmp_path, band=[{"name": "b", "response": "filter.csv"},
+                                         {"name": "wide", "response": "wide.csv"}])
+
+    assert got.planes["radiance_b"] == pytest.approx(got.planes["radiance_wide"], rel=1e-4)
+
+
+def test_noise_below_zero_is_zero_and_told(program, tmp_path):
+    (tmp_path / "filter.csv").write_text("wavelength_um,response\n7,-.01\n8,0\n9,1\n10,0\n13,-.04\n")
+    (tmp_path / "clean.csv").write_text("wavelength_um,response\n7,0\n8,0\n9,1\n10,0\n13,0\n")
+    bands = [{"name": "b", "response": "filter.csv"}, {"name": "clean", "response": "clean.csv"}]
+
+    got = program.render(tmp_path, band=bands)
+    said = program.run("check", program.write_scene(tmp_path, band=bands)).stderr
+
+    assert got.planes["radiance_b"].tolist() == got.planes["radiance_clean"].tolist()
+    assert "filter.csv: responses below 0, down to -0.04 of a peak of 1, are taken as 0" in said
+
+
+@pytest.mark.parametrize("rows, expected", [
+    ("8,-.2\n9,1\n", "a response of 0 or more, but for noise: the lowest is -0.2"),
+    ("8,1\n9,1\n8.5,1\n", "filter.csv:4: found '8.5,1', expected wavelengths that only rise or only fall"),
+    ("8,1\n8,1\n", "wavelengths that only rise or only fall"),
+    ("8,0\n9,0\n", "a response above 0")])
+def test_a_table_that_is_no_response_is_refused(program, tmp_path, rows, expected):
+    (tmp_path / "filter.csv").write_text("wavelength_um,response\n" + rows)
+
+    assert expected in program.run("check", program.write_scene(tmp_path, band=[{"name": "b", "response": "filter.csv"}])).stderr
+
+
 def test_a_broken_table_is_refused_with_its_line(program, tmp_path):
     (tmp_path / "filter.csv").write_text("wavelength_um,response\n8,0\n9;1\n")
 

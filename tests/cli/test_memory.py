@@ -33,9 +33,10 @@ def scene(program, tmp_path_factory):
                                      "null\n")
     (folder / "flat.ems").write_text("".join(
         f"{angle}\n" + "".join(f"{39850 - 100 * i} .9\n" for i in range(396)) for angle in range(91)))
+    (folder / "names.csv").write_text("pattern,material\nbox_*,wall\nbric,wall\n")
     (folder / "curve.csv").write_text("wavelength_um,response\n8,0\n10,1\n12,0\n")
     return program.write_scene(
-        folder, meshes={"plane.obj": CORNERS + "usemtl asphalt\nf 1 2 3 4\nf 1 2 5 3 4\n",
+        folder, meshes={"plane.obj": CORNERS + "usemtl asphalt\nf 1 2 3 4\nf 1 2 5 3 4\nusemtl box_1\nl 1 2\nf 1 2 5\n",
                         "box.ply": "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
                                    "property float y\nproperty float z\nelement face 1\n"
                                    "property list uchar int vertex_indices\nend_header\n"
@@ -43,7 +44,7 @@ def scene(program, tmp_path_factory):
         site={"ground_material": "asphalt"},
         geometry=[{"file": "plane.obj", "thickness_cm": 5.0},
                   {"file": "box.ply", "material": "wall", "power_w_m2": 10.0}],
-        library={"materials": "some.mat"},
+        library={"materials": "some.mat"}, materials={"alias_file": "names.csv"},
         material=[{"name": "wall", "emissivity": .9, "thickness_cm": 10.0, "density_kg_m3": 2000.0,
                    "specific_heat_j_kg_k": 900.0, "conductivity_w_m_k": 1.0,
                    "power_w_m2_by_hour": [[8, 100], [18, 0]]}],

@@ -82,6 +82,20 @@ static void a_wrong_row_is_refused_at_its_line(void **state)
     assert_null(e);
 }
 
+static void noise_beyond_0_and_1_is_cut_and_told(void **state)
+{
+    emissivity *e = NULL;
+
+    (void)state;
+    assert_int_equal(emissivity_read(&e, text_file_with(table, "39750 1.000000\n39650 1.000000",
+                                                        "39750 1.019\n39650 -.02")),
+                     STATUS_OK);
+    assert_float_equal(e->value[0][1], 1.0f, 0.0f);
+    assert_float_equal(e->value[0][2], 0.0f, 0.0f);
+    assert_non_null(strstr(status_warnings(), "2 emissivities lie beyond 0 and 1 by up to 0.02"));
+    emissivity_free(e);
+}
+
 static void a_table_that_ends_early_is_refused(void **state)
 {
     emissivity *e = NULL;
@@ -101,6 +115,7 @@ int main(void)
         cmocka_unit_test(the_printed_asphalt_is_read),
         cmocka_unit_test(a_header_is_passed_over),
         cmocka_unit_test(a_wrong_row_is_refused_at_its_line),
+        cmocka_unit_test(noise_beyond_0_and_1_is_cut_and_told),
         cmocka_unit_test(a_table_that_ends_early_is_refused),
     };
 

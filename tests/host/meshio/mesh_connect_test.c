@@ -93,13 +93,29 @@ static void four_faces_of_the_second_of_two_cubes_at_an_edge_are_non_manifold(vo
     mesh_connect_free(connection);
 }
 
-/* The face between them is the second one's duplicate, though it looks the other way. */
-static void a_face_between_two_cubes_is_counted_as_a_duplicate(void **state)
+/* The face between them is the back of the first one's. */
+static void a_face_between_two_cubes_is_counted_as_reversed(void **state)
 {
     mesh_connection *connection = two_cubes(1, 0, 0);
     (void)state;
 
-    assert_int_equal(connection->duplicate_count, 1);
+    assert_int_equal(connection->duplicate_count, 0);
+    assert_int_equal(connection->reversed_count, 1);
+    mesh_connect_free(connection);
+}
+
+static void of_twins_those_that_face_the_same_way_are_duplicates(void **state)
+{
+    const double position[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const uint32_t corner[] = {0, 1, 2, 3,  /* a sheet */
+                               3, 2, 1, 0,  /* its back */
+                               2, 3, 0, 1,  /* the sheet again */
+                               1, 0, 3, 2}; /* the back again */
+    mesh_connection *connection = connect(4, position, LENGTH(corner) / 4, 4, corner);
+    (void)state;
+
+    assert_int_equal(connection->duplicate_count, 2);
+    assert_int_equal(connection->reversed_count, 1);
     mesh_connect_free(connection);
 }
 
@@ -161,7 +177,8 @@ static void bad_faces_are_counted_by_kind_and_have_no_neighbours(void **state)
     mesh_connection *connection = connect(7, position, count, 3, corner);
     (void)state;
 
-    assert_int_equal(connection->duplicate_count, 2);
+    assert_int_equal(connection->duplicate_count, 1);
+    assert_int_equal(connection->reversed_count, 1);
     assert_int_equal(connection->non_finite_count, 2);
     assert_int_equal(connection->degenerate_count, 2);
     assert_int_equal(connection->non_manifold_count, 0);
@@ -213,7 +230,8 @@ int main(void)
         cmocka_unit_test(every_edge_of_a_cube_has_a_neighbour),
         cmocka_unit_test(two_cubes_apart_are_two_closed_bodies),
         cmocka_unit_test(four_faces_of_the_second_of_two_cubes_at_an_edge_are_non_manifold),
-        cmocka_unit_test(a_face_between_two_cubes_is_counted_as_a_duplicate),
+        cmocka_unit_test(a_face_between_two_cubes_is_counted_as_reversed),
+        cmocka_unit_test(of_twins_those_that_face_the_same_way_are_duplicates),
         cmocka_unit_test(the_third_face_at_an_edge_is_non_manifold),
         cmocka_unit_test(vertices_at_the_same_place_are_one_and_minus_zero_is_zero),
         cmocka_unit_test(vertices_a_last_bit_apart_are_two),

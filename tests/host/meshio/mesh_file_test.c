@@ -234,7 +234,9 @@ static void a_bad_ply_is_refused_with_its_line(void **state)
         "d.ply", PLY("4000000000"),
         ":7: \"4000000000\", expected a number of rows that a file of 181 bytes can hold");
     assert_refused("e.ply", PLY("1") "2 0 1\n", ":13: a face of 2 corners, expected 3 or more");
-    assert_refused("f.ply", PLY("0"), ": no faces");
+    assert_refused("f.ply", PLY("0"), ": no faces, but 3 points: expected faces between them");
+    assert_refused("h.ply", PLY("1") "3 0 1\n",
+                   ":13: the line ends here, expected the properties that the header promises");
     assert_refused("g.ply", "plx\n", ":1: expected a first line \"ply\"");
 #undef PLY
 }
@@ -379,6 +381,172 @@ static void a_ply_thickness_is_not_stated_or_1e_4_to_1e4_cm(void **state)
 #undef THICK
 }
 
+/* Asserts that a mesh is read, with as many faces and with this warning. */
+static void assert_taken(const char *name, const void *bytes, size_t size, uint32_t face_count,
+                         const char *warning)
+{
+    mesh_file *mesh = NULL;
+
+    write_file(name, bytes, size);
+    if (mesh_file_read(&mesh, path, message, sizeof message)) fail_msg("%s", message);
+    assert_int_equal(mesh->face_count, face_count);
+    assert_string_equal(mesh->warnings, warning);
+    mesh_file_free(mesh);
+}
+
+static void assert_text_taken(const char *name, const char *text, uint32_t face_count,
+                              const char *warning)
+{
+    assert_taken(name, text, strlen(text), face_count, warning);
+}
+
+#define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+
+static void a_comment_of_an_obj_begins_anywhere_in_vertices_and_faces(void **state)
+{
+    (void)state;
+    assert_text_taken("a.obj", "v 0 0 0# c\nv 1 0 0\t# c\nv 0 1 0 #c\nf 1 2 3\t# c\nf 1 2 3#\n", 2,
+                      "");
+    assert_text_taken("a.obj", "# c\n\t# c\n" TRIANGLE "f 1 2 3", 1, "");
+}
+
+static void what_an_obj_holds_beside_polygons_is_told(void **state)
+{
+    (void)state;
+    assert_text_taken("a.obj",
+                      TRIANGLE "cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 \\\n  3 1\nparm u 0 1\n"
+                               "end\nbzp 1 2 3 1\nf 1 2 3\n",
+                      1, "2 free-form surfaces are left out");
+    assert_text_taken("a.obj", TRIANGLE "l 1 2\np 1\ncurv 0 1 1 2\nf 1 2 3\n", 1,
+                      "3 lines, curves and points have no area and are left out");
+    assert_text_taken("a.obj", TRIANGLE "call rest.obj\nF 1 2 3\nface 1 2 3\nf 1 2 3\n", 1,
+                      "1 files that it calls are left out\n"
+                      "2 lines that are none of OBJ are passed over, the first is line 5");
+    assert_refused("a.obj", TRIANGLE "surf 0 1 0 1 1 2 3 1\n",
+                   ": no faces, but 1 free-form surfaces are left out");
+}
+
+static void keywords_of_an_obj_that_say_nothing_of_shape_are_no_oddity(void **state)
+{
+    (void)state;
+    assert_text_taken(
+        "a.obj",
+        "mtllib a.mtl\no a\ng b c\ns off\nmg 1 1\nusemtl d\nlod 1\nbevel off\n" TRIANGLE
+        "vt 0 0\nvn 0 0 1\nvp 0 0\nc_interp on\nd_interp on\nf 1/1/1 2//1 3\n",
+        1, "");
+}
+
+/* U+1F9F1 is a pair of surrogates. */
+static void a_text_in_utf_16_is_read(void **state)
+{
+    const char text[] = TRIANGLE "usemtl \xd8\x3e\xdd\xf1\nf 1 2 3\n";
+    char bytes[256] = "\xfe\xff", turned[256];
+    size_t size = 2;
+    mesh_file *mesh = NULL;
+    (void)state;
+
+    for (const char *c = text; *c; c++) {
+        bytes[size++] = '\0';
+        bytes[size++] = *c;
+        if (*c != '\xd8' && *c != '\xdd') continue;
+        bytes[size - 2] = *c; /* the high byte of a unit */
+        bytes[size - 1] = *++c;
+    }
+    for (size_t i = 0; i < size; i++) turned[i] = bytes[i ^ 1];
+    for (int i = 0; i < 2; i++) {
+        write_file("utf16.obj", i ? turned : bytes, size);
+        if (mesh_file_read(&mesh, path, message, sizeof message)) fail_msg("%s", message);
+        assert_string_equal(mesh->material_name[0], "\xf0\x9f\xa7\xb1");
+        mesh_file_free(mesh);
+    }
+}
+
+static void padding_behind_a_text_is_no_text(void **state)
+{
+    (void)state;
+    assert_taken("a.obj", TRIANGLE "f 1 2 3\n\x1a", sizeof TRIANGLE + 8, 1, "");
+    assert_taken("a.obj", TRIANGLE "f 1 2 3\n\0\0\0", sizeof TRIANGLE + 10, 1, "");
+    assert_text_taken("a.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n\x1a", 1, "");
+}
+
+static void a_header_of_an_off_may_be_glued_or_missing(void **state)
+{
+    (void)state;
+    assert_text_taken("a.off", "OFF3 1 0 # glued\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 1,
+                      "the number of vertices is glued to OFF");
+    assert_text_taken("a.off", "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 1, "");
+    assert_text_taken("a.off", "COFF\n3 1\n0 0 0 1 1 1 1\n1 0 0 1 1 1 1\n0 1 0 1 1 1 1\n3 0 1 2\n",
+                      1, "");
+    assert_refused("a.off", "OOPS3 1 0\n", ":1: \"OOPS\", expected OFF with three coordinates");
+}
+
+static void a_count_of_a_binary_stl_that_is_none_is_taken_from_the_size(void **state)
+{
+    char bytes[84 + 2 * 50 + 16] = "exported";
+    (void)state;
+
+    for (int i = 0; i < 2; i++)
+        bytes[84 + 50 * i + 12 + 12 + 3] = bytes[84 + 50 * i + 36 + 6] = 0x3f;
+    assert_taken("a.stl", bytes, 184, 2, "2 facets are there, the header promises 0");
+    bytes[80] = 1;
+    assert_taken("a.stl", bytes, 184, 2, "2 facets are there, the header promises 1");
+    memset(bytes + 80, 0xff, 4);
+    assert_taken("a.stl", bytes, 184, 2, "2 facets are there, the header promises 4294967295");
+    memset(bytes + 80, 0, 4);
+    bytes[80] = 2;
+    assert_taken("a.stl", bytes, 184, 2, "");
+    assert_taken("a.stl", bytes, 200, 2, "16 bytes follow the 2 facets that the header promises");
+    bytes[80] = 1;
+    memset(bytes + 134, 0, 50);
+    assert_taken("a.stl", bytes, 184, 1, "50 bytes follow the 1 facets that the header promises");
+}
+
+static void rows_and_headers_of_a_ply_that_are_off_are_told(void **state)
+{
+#define HEAD(MORE)                                                                                 \
+    "ply\nformat ascii 1.0\n" MORE "element vertex 3\nproperty float x\nproperty float y\n"        \
+    "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+#define BODY "0 0 0\n1 0 0\n0 1 0\n"
+    (void)state;
+    assert_text_taken("a.ply", HEAD("Created by hand\n") BODY "3 0 1 2\n", 1,
+                      "1 lines of the header are none of PLY, and passed over");
+    assert_text_taken("a.ply", HEAD("comment\nobj_info a\n\n") BODY "3 0 1 2\n", 1, "");
+    assert_text_taken("a.ply", HEAD("") BODY "3 0 1 2 255 255 255\n", 1,
+                      "1 rows hold more than the header promises: the rest is passed over");
+    assert_text_taken("a.ply", HEAD("") "0 0 0 1 0 0 0 1 0 3 0 1 2\n", 1, "");
+#undef BODY
+#undef HEAD
+}
+
+static void bytes_without_a_meaning_behind_a_binary_ply_are_told(void **state)
+{
+    char bytes[256] = "";
+    const size_t size = big_endian_ply(bytes);
+    (void)state;
+
+    memset(bytes + size, 0, 4);
+    assert_taken("a.ply", bytes, size + 4, 1, "4 bytes without a meaning follow the rows");
+    bytes[size + 3] = 7;
+    write_file("a.ply", bytes, size + 4);
+    assert_int_not_equal(mesh_file_read(&(mesh_file *){NULL}, path, message, sizeof message), 0);
+    assert_non_null(strstr(message, "4 bytes after the rows that the header promises"));
+}
+
+static void strips_of_a_ply_are_triangles_that_turn_alike(void **state)
+{
+    mesh_file *mesh =
+        read_text("a.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                           "property float y\nproperty float z\nelement tristrips 1\n"
+                           "property list int int vertex_indices\nend_header\n"
+                           "0 0 0\n1 0 0\n0 1 0\n1 1 0\n8 0 1 2 3 -1 2 1 3\n");
+    const uint32_t expected[] = {0, 1, 2, 2, 1, 3, 2, 1, 3};
+    (void)state;
+
+    assert_int_equal(mesh->face_count, 3);
+    for (int i = 0; i < 9; i++) assert_int_equal(mesh->corner[i], expected[i]);
+    mesh_file_free(mesh);
+}
+
 static void what_is_no_mesh_file_is_refused(void **state)
 {
     mesh_file *mesh = NULL;
@@ -390,7 +558,7 @@ static void what_is_no_mesh_file_is_refused(void **state)
     assert_non_null(strstr(message, "a folder, expected a file"));
     assert_int_not_equal(mesh_file_read(&mesh, "nonesuch.obj", message, sizeof message), 0);
     assert_string_equal(message, "nonesuch.obj: No such file or directory");
-    write_file("utf16.obj", "\xfe\xff\0v\0 \0 1", 8);
+    write_file("zero.obj", "v 1\0 2", 6);
     assert_int_not_equal(mesh_file_read(&mesh, path, message, sizeof message), 0);
     assert_non_null(strstr(message, ":1: a zero byte, expected text"));
 }
@@ -473,6 +641,16 @@ int main(void)
         cmocka_unit_test(a_coordinate_of_1e9_m_is_read),
         cmocka_unit_test(a_ply_list_of_more_numbers_than_fit_is_refused),
         cmocka_unit_test(a_ply_thickness_is_not_stated_or_1e_4_to_1e4_cm),
+        cmocka_unit_test(a_comment_of_an_obj_begins_anywhere_in_vertices_and_faces),
+        cmocka_unit_test(what_an_obj_holds_beside_polygons_is_told),
+        cmocka_unit_test(keywords_of_an_obj_that_say_nothing_of_shape_are_no_oddity),
+        cmocka_unit_test(a_text_in_utf_16_is_read),
+        cmocka_unit_test(padding_behind_a_text_is_no_text),
+        cmocka_unit_test(a_header_of_an_off_may_be_glued_or_missing),
+        cmocka_unit_test(a_count_of_a_binary_stl_that_is_none_is_taken_from_the_size),
+        cmocka_unit_test(rows_and_headers_of_a_ply_that_are_off_are_told),
+        cmocka_unit_test(bytes_without_a_meaning_behind_a_binary_ply_are_told),
+        cmocka_unit_test(strips_of_a_ply_are_triangles_that_turn_alike),
         cmocka_unit_test(what_is_no_mesh_file_is_refused),
         cmocka_unit_test(a_message_is_cut_to_the_buffer),
         cmocka_unit_test(real_files_have_the_faces_that_they_declare),

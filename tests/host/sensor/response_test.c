@@ -129,6 +129,22 @@ static void a_gaussian_has_the_area_of_its_closed_form(void **state)
     response_free(r);
 }
 
+static void a_wavelength_that_comes_twice_is_a_step(void **state)
+{
+    response *r = NULL;
+
+    (void)state;
+    assert_int_equal(
+        response_read(&r, text_file("wavelength_um,response\n8,0\n8,1\n9,1\n9,.5\n9,0\n")),
+        STATUS_OK);
+    assert_int_equal(r->count, 4);
+    assert_near(response_at(r, 8.0), 1.0, 0.0);
+    assert_near(response_at(r, 8.999), 1.0, 0.0);
+    assert_near(response_at(r, 9.0), 0.0, 0.0);
+    assert_near(response_integral(r, 8.0, 9.0), 0.5, 1e-15);
+    response_free(r);
+}
+
 static void a_wrong_table_is_refused_at_its_line(void **state)
 {
     static const struct {
@@ -143,7 +159,7 @@ static void a_wrong_table_is_refused_at_its_line(void **state)
         {"wavelength_um,response\n8,1\n9,-1\n", 3, "a response of 0 or more"},
         {"wavelength_um,response\n8,1\n900,1\n", 3, "a wavelength of 0.2 to 50 um"},
         {"wavenumber_cm1,response\n0,1\n900,1\n", 2, "a wavelength of 0.2 to 50 um"},
-        {"wavelength_um,response\n8,1\n9,1\n9,1\n", 4, "only rise or only fall"},
+        {"wavelength_um,response\n9,1\n9,1\n", 3, "only rise or only fall"},
         {"wavelength_um,response\n8,1\n9,1\n8.5,1\n", 4, "only rise or only fall"},
         {"wavelength_um,response\n8,0\n9,0\n", 3, "a response above 0"},
     };
@@ -168,6 +184,7 @@ int main(void)
         cmocka_unit_test(an_integral_ends_with_the_table),
         cmocka_unit_test(a_gaussian_has_half_its_peak_at_half_its_width),
         cmocka_unit_test(a_gaussian_has_the_area_of_its_closed_form),
+        cmocka_unit_test(a_wavelength_that_comes_twice_is_a_step),
         cmocka_unit_test(a_wrong_table_is_refused_at_its_line),
     };
 
