@@ -24,6 +24,8 @@
 #else
 #define INLINE static inline __attribute__((always_inline))
 #endif
+/* Before a function that is seldom called, so that those that call it stay small. */
+#define RARE static __attribute__((noinline))
 #define RECORD_SIZE(type, bytes) typedef char type##_size[sizeof(type) == (bytes) ? 1 : -1]
 /* Before a kernel whose work-items do much: on CPUs its body is compiled once, see with_shared_body of
  * launches.py, which writes the other names. */
@@ -62,6 +64,7 @@
 #include <stdint.h>
 #define UNROLL
 #define INLINE static inline
+#define RARE static inline
 #ifdef __cplusplus
 #include <cmath>
 #define RECORD_SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type)

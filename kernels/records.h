@@ -12,7 +12,8 @@
 
 /* A node of the flattened tree; 64-byte aligned.
  *   low, high   boxes of the 8 children, axis by axis; an empty child has low 1e30, high -1e30
- *   child       bit 31: leaf, then first block << 4 | block count; else the index of a node
+ *   child       bit 31: leaf, then block << 4 | how many of its first triangles are long << 1 | 1 where
+ *               it has any; else the index of a node
  *   order       per octant of the ray direction (bit 0 x, 1 y, 2 z negative): children near to far,
  *               4 bits each, the nearest in the lowest */
 typedef struct bvh_node {
@@ -24,6 +25,9 @@ typedef struct bvh_node {
 RECORD_SIZE(bvh_node, 256);
 
 #define BVH_LEAF 0x80000000u
+
+/* Where it stops counting long triangles. */
+#define BVH_LONG_LIMIT 7u
 
 /* Entries that a ray's stack can need; the builder keeps to it. */
 #define RAY_STACK_SIZE 256
@@ -131,11 +135,15 @@ typedef struct thermal_span {
 } thermal_span;
 RECORD_SIZE(thermal_span, 32);
 
+/* Rays leave surfaces by the rounding of their scene's coordinates, or of this one where those are
+ * larger. */
+#define RAY_OFFSET_REACH_M 4096.0f
+
 /* What rays need of a scene besides its triangles. */
 typedef struct world_record {
     uint ground_facet; /* facet of the endless level plane, RECORD_NONE without one */
     float ground_z_m;
-    float offset_m; /* rays that leave a surface start this far above it, along its normal */
+    float offset_m; /* rays that leave a surface start this far above it at least; ray_leaving */
     uint cull_back; /* 1: facets are met from the front alone, where they run counter-clockwise */
 } world_record;
 RECORD_SIZE(world_record, 16);

@@ -34,7 +34,7 @@ status ray_scene_open(ray_scene **out, device *dev, bvh **tree)
     NEED(scene, STATUS_MEMORY, "no memory for a scene of rays");
     scene->dev = dev;
     scene->world.ground_facet = RECORD_NONE;
-    scene->world.offset_m = offset_per_m * reach(tables);
+    scene->world.offset_m = offset_per_m * fminf(reach(tables), RAY_OFFSET_REACH_M);
     TRY(bvh_memory_take(&scene->tree, dev, tree));
     *out = scene;
     scene = NULL;

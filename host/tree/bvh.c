@@ -1,6 +1,7 @@
 #include "tree/bvh.h"
 
 #include "base/interrupt.h"
+#include "kernels/rays/triangle.h"
 #include "mesh/polygon.h"
 #include "tree/bvh_wide.h"
 
@@ -35,7 +36,7 @@ typedef struct builder {
     bvh_item *item;
     bvh_fork *fork;
     uint32_t *plan;
-    float pad_m;
+    float reach_m; /* the largest coordinate */
 } builder;
 
 static bool is_usable(const float (*position)[3], const uint32_t corner[3])
@@ -82,7 +83,6 @@ static void add_sides(builder *b, bool two_sided, const triangle *t)
 static status add_facets(builder *b, const bvh_source *source)
 {
     status rc = STATUS_OK;
-    float reach = 0;
 
     for (uint32_t i = 0; i < source->facet_count; i++) {
         TRY(interrupt_check());
@@ -97,10 +97,9 @@ static status add_facets(builder *b, const bvh_source *source)
         }
     }
     for (int k = 0; k < 3; k++) {
-        reach = fmax(reach, fabs(b->tree->tables.low[k]));
-        reach = fmax(reach, fabs(b->tree->tables.high[k]));
+        b->reach_m = fmaxf(b->reach_m, fabsf(b->tree->tables.low[k]));
+        b->reach_m = fmaxf(b->reach_m, fabsf(b->tree->tables.high[k]));
     }
-    b->pad_m = rounding * reach;
 out:
     return rc;
 }
@@ -126,22 +125,47 @@ static uint32_t octant_order(const bvh_node *node, uint32_t count, uint32_t octa
     return order;
 }
 
+static bool is_long(const builder *b, const triangle *t)
+{
+    float vertex[3][3];
+
+    for (int v = 0; v < 3; v++) memcpy(vertex[v], b->position[t->corner[v]], sizeof vertex[v]);
+    return triangle_is_long((const float(*)[3])vertex);
+}
+
+/* Puts a leaf's long triangles first; returns how many they are. */
+static uint32_t long_first(const builder *b, const bvh_fork *leaf, triangle out[BVH_BLOCK_SIZE])
+{
+    uint32_t count = 0, long_count = 0;
+
+    for (int pass = 0; pass < 2; pass++)
+        for (uint32_t i = 0; i < leaf->count; i++) {
+            const triangle *t = &b->triangle[b->item[leaf->first + i].triangle];
+            if (is_long(b, t) == (pass == 0)) out[count++] = *t;
+            if (pass == 0) long_count = count;
+        }
+    return long_count;
+}
+
 static uint32_t add_leaf(builder *b, const bvh_fork *leaf)
 {
     const uint32_t index = b->tree->tables.block_count++;
     bvh_block *block = &b->tree->block[index];
+    triangle own[BVH_BLOCK_SIZE];
+    const uint32_t long_count = long_first(b, leaf, own);
 
     for (uint32_t lane = 0; lane < BVH_BLOCK_SIZE; lane++) {
         block->facet[lane] = RECORD_NONE;
         for (int v = 0; v < 3; v++)
             for (int k = 0; k < 3; k++) block->vertex[v][k][lane] = NAN;
         if (lane >= leaf->count) continue;
-        const triangle *t = &b->triangle[b->item[leaf->first + lane].triangle];
-        block->facet[lane] = t->facet;
+        block->facet[lane] = own[lane].facet;
         for (int v = 0; v < 3; v++)
-            for (int k = 0; k < 3; k++) block->vertex[v][k][lane] = b->position[t->corner[v]][k];
+            for (int k = 0; k < 3; k++)
+                block->vertex[v][k][lane] = b->position[own[lane].corner[v]][k];
     }
-    return BVH_LEAF | index << 4 | 1;
+    return BVH_LEAF | index << 4 |
+           (long_count < BVH_LONG_LIMIT ? long_count : BVH_LONG_LIMIT) << 1 | 1;
 }
 
 static void set_box(bvh_node *node, uint32_t child, const bvh_fork *fork, float pad_m)
@@ -162,7 +186,7 @@ static uint32_t add_node(builder *b, uint32_t top)
 
     if (b->fork && !interrupt_is_set()) count = bvh_wide_children(b->plan, b->fork, top, child);
     for (uint32_t i = 0; i < CHILDREN; i++) {
-        set_box(node, i, i < count ? &b->fork[child[i]] : NULL, b->pad_m);
+        set_box(node, i, i < count ? &b->fork[child[i]] : NULL, rounding * b->reach_m);
         node->child[i] = BVH_LEAF;
     }
     for (uint32_t octant = 0; octant < 8; octant++)

@@ -16,11 +16,12 @@ static hemisphere_points take_points(const world_record *world, global const hit
     for (uint i = 0; i < RAY_LANES && place + i < count; i++) {
         const hit_record at = hit[place + i];
         if (at.facet == RECORD_NONE) continue;
+        const float offset_m = ray_offset(world, at.point, at.normal);
         out.alive |= 1u << i;
         for (int k = 0; k < 3; k++) {
             if (out.alive == 1u << i) out.normal[k] = (lanes)at.normal[k];
             LANES_SET(out.normal[k], i, at.normal[k]);
-            LANES_SET(out.origin[k], i, at.point[k] + world->offset_m * at.normal[k]);
+            LANES_SET(out.origin[k], i, at.point[k] + offset_m * at.normal[k]);
         }
     }
     return out;

@@ -50,7 +50,8 @@ static void hemisphere_look_for_sun(ray_queue *shadows, const hemisphere_scene *
     }
     const hit_lanes at = hit_lanes_of(scene->tree.blocks, origin, direction, met);
     const lanes facing = (at.normal[0] * sun[0] + at.normal[1] * sun[1]) + at.normal[2] * sun[2];
-    for (int k = 0; k < 3; k++) origin[k] = at.point[k] + scene->tree.world.offset_m * at.normal[k];
+    const lanes offset_m = hit_lanes_offset(&scene->tree.world, &at);
+    for (int k = 0; k < 3; k++) origin[k] = at.point[k] + offset_m * at.normal[k];
     for (uint lit = lanes_bits_of(facing > 0.0f) & have; lit; lit &= lit - 1) {
         const uint i = 31 - clz(lit & -lit);
         ray r = {.direction = {sun[0], sun[1], sun[2]}};

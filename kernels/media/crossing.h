@@ -26,9 +26,10 @@ static inline float8 crossing_side(const float8 edge, const float8 xa, const flo
 }
 
 /* Finds the triangles that the ray's line crosses: a bit each, and where.
+ *   leaf   the child word that has the block
  * Returns the mask of entries (seen counter-clockwise) and sets that of exits. */
 static inline uint crossing_meets(const ray_frame *f, global const bvh_block *block,
-                                  float8 *out_range, uint *out_exits)
+                                  const uint leaf, float8 *out_range, uint *out_exits)
 {
     const triangle_shear s = f->shear;
     float8 x[3], y[3], z[3];
@@ -42,14 +43,19 @@ static inline uint crossing_meets(const ray_frame *f, global const bvh_block *bl
     const float8 b = x[0] * y[2] - y[0] * x[2];
     const float8 c = x[1] * y[0] - y[1] * x[0];
     const float8 determinant = (a + b) + c;
-    const float8 range = ((a * z[0] + b * z[1]) + c * z[2]) * s.scale_z / determinant;
+    float8 range = ((a * z[0] + b * z[1]) + c * z[2]) * s.scale_z / determinant;
     const float8 p = crossing_side(a, x[2], y[2], x[1], y[1]);
     const float8 q = crossing_side(b, x[0], y[0], x[2], y[2]);
     const float8 t = crossing_side(c, x[1], y[1], x[0], y[0]);
+    const int8 out = (p < 0.0f) & (q < 0.0f) & (t < 0.0f);
+    const int8 in = (p > 0.0f) & (q > 0.0f) & (t > 0.0f);
+    const uint among_long =
+        mask_of_8((in | out) & (determinant != 0.0f)) & ((1u << ray_long_of(leaf)) - 1);
+    if (among_long) range = ray_ranges_of_long(f, block, among_long, MAXFLOAT, range);
     const int8 ahead = (determinant != 0.0f) & (range > 0.0f);
     *out_range = range;
-    *out_exits = mask_of_8((p < 0.0f) & (q < 0.0f) & (t < 0.0f) & ahead);
-    return mask_of_8((p > 0.0f) & (q > 0.0f) & (t > 0.0f) & ahead);
+    *out_exits = mask_of_8(out & ahead);
+    return mask_of_8(in & ahead);
 }
 
 /* Adds the crossings of a leaf. Those behind the limit count at the limit: they tell what the ray is
@@ -57,13 +63,13 @@ static inline uint crossing_meets(const ray_frame *f, global const bvh_block *bl
 static inline void crossing_leaf(const ray_frame *f, const medium_tables *medium, const uint leaf,
                                  const float limit, crossing_sum *sum)
 {
-    const uint first = ray_block_of(leaf), count = leaf & 15;
+    const uint first = ray_block_of(leaf), count = leaf & 1;
 
     for (uint b = first; b < first + count; b++) {
         float8 range;
         float at[8];
         uint exits;
-        const uint entries = crossing_meets(f, medium->medium_blocks + b, &range, &exits);
+        const uint entries = crossing_meets(f, medium->medium_blocks + b, leaf, &range, &exits);
         vstore8(range, 0, at);
         for (uint mask = entries | exits; mask; mask &= mask - 1) {
             const uint i = 31 - clz(mask & -mask);

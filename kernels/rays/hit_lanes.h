@@ -80,6 +80,35 @@ static inline void hit_lanes_normals(const lanes corner[3][3], lanes out[3])
     for (int k = 0; k < 3; k++) out[k] /= length;
 }
 
+/* Puts the points right that lie on long triangles, as ray_record does. */
+static inline void hit_lanes_set_points(const lanes corner[3][3], const lanes origin[3],
+                                        const lanes direction[3], const ray_packet_hit *met,
+                                        lanes point[3])
+{
+    for (uint i = 0; i < LANES_WIDTH; i++) {
+        float vertex[3][3], from[3], along[3], right[3];
+        if (met->facet[i] == RECORD_NONE) continue;
+        for (int k = 0; k < 3; k++) {
+            for (int v = 0; v < 3; v++) vertex[v][k] = ((const float *)&corner[v][k])[i];
+            from[k] = ((const float *)&origin[k])[i];
+            along[k] = ((const float *)&direction[k])[i];
+        }
+        if (!triangle_is_long(vertex)) continue;
+        const triangle_shear shear = triangle_shear_of(along);
+        if (!triangle_point(vertex, from, along, &shear, right)) continue;
+        for (int k = 0; k < 3; k++) LANES_SET(point[k], i, right[k]);
+    }
+}
+
+/* ray_offset at each point. */
+static inline lanes hit_lanes_offset(const world_record *world, const hit_lanes *at)
+{
+    const lanes size = (fabs(at->point[0] * at->normal[0]) + fabs(at->point[1] * at->normal[1])) +
+                       fabs(at->point[2] * at->normal[2]);
+
+    return fmax((lanes)world->offset_m, RAY_PAD * size);
+}
+
 /* Where the rays met their triangles; nothing of use in lanes that met none. */
 static inline hit_lanes hit_lanes_of(global const bvh_block *blocks, const lanes origin[3],
                                      const lanes direction[3], const ray_packet_hit *met)
@@ -98,6 +127,7 @@ static inline hit_lanes hit_lanes_of(global const bvh_block *blocks, const lanes
             (fraction[0] * corner[0][k] + fraction[1] * corner[1][k]) + fraction[2] * corner[2][k];
         out.normal[k] = along > 0.0f ? -out.normal[k] : out.normal[k];
     }
+    hit_lanes_set_points(corner, origin, direction, met, out.point);
     return out;
 }
 

@@ -40,7 +40,8 @@ typedef struct ray_frame {
     float origin[3]; /* by the axes of the shear */
     float reciprocal[3], near[3], far[3];
     uint is_negative[3];
-    float back; /* edges are met from 0 up and from back down */
+    float start[3], direction[3]; /* by those of the world */
+    float back;                   /* edges are met from 0 up and from back down */
 } ray_frame;
 
 /* The reciprocal of a part of a direction; of 0 a large number. */
@@ -60,7 +61,11 @@ static inline ray_frame ray_frame_of(const ray *r)
     f.origin[2] = r->origin[f.shear.z];
     f.back = r->cull_back ? -INFINITY : 0.0f;
     UNROLL
-    for (int k = 0; k < 3; k++) reach = fmax(reach, fabs(r->origin[k]));
+    for (int k = 0; k < 3; k++) {
+        reach = fmax(reach, fabs(r->origin[k]));
+        f.start[k] = r->origin[k];
+        f.direction[k] = r->direction[k];
+    }
     UNROLL
     for (int k = 0; k < 3; k++) {
         const float pad = RAY_PAD * reach;
@@ -100,9 +105,48 @@ static inline uint ray_enters(const ray_frame *f, global const bvh_node *node, c
     return mask_of_8(from <= to);
 }
 
-/* Finds the triangles that the ray meets up to `limit`: a bit each, and where. */
-static inline uint ray_meets(const ray_frame *f, global const bvh_block *block, const float limit,
-                             float8 *out_range)
+/* The first block of a leaf. */
+static inline uint ray_block_of(const uint leaf)
+{
+    return (leaf & ~BVH_LEAF) >> 4;
+}
+
+/* How many of the first triangles of a leaf are long: rounding may spoil their ranges. */
+static inline uint ray_long_of(const uint leaf)
+{
+    const uint count = leaf >> 1 & BVH_LONG_LIMIT;
+
+    return count < BVH_LONG_LIMIT ? count : 8;
+}
+
+/* A triangle of a block. */
+static inline void ray_triangle(global const bvh_block *block, const uint lane, float out[3][3])
+{
+    UNROLL
+    for (int v = 0; v < 3; v++) UNROLL
+    for (int k = 0; k < 3; k++) out[v][k] = block->vertex[v][k][lane];
+}
+
+/* Puts the ranges of those triangles of a block right that are long and the ray is inside of: a bit
+ * each. */
+RARE float8 ray_ranges_of_long(const ray_frame *f, global const bvh_block *block, uint inside,
+                               const float limit, const float8 range)
+{
+    float better[8], vertex[3][3];
+
+    vstore8(range, 0, better);
+    for (; inside; inside &= inside - 1) {
+        const uint i = 31 - clz(inside & -inside);
+        ray_triangle(block, i, vertex);
+        better[i] = triangle_range(vertex, f->start, f->direction, &f->shear, limit);
+    }
+    return vload8(0, better);
+}
+
+/* Finds the triangles that the ray meets up to `limit`: a bit each, and where.
+ *   leaf   the child word that has the block */
+static inline uint ray_meets(const ray_frame *f, global const bvh_block *block, const uint leaf,
+                             const float limit, float8 *out_range)
 {
     const triangle_shear s = f->shear;
     float8 x[3], y[3], z[3];
@@ -118,17 +162,14 @@ static inline uint ray_meets(const ray_frame *f, global const bvh_block *block, 
     const float8 c = x[1] * y[0] - y[1] * x[0];
     const int8 front = ray_least(ray_least(a, b), c) >= 0.0f;
     const int8 back = ray_most(ray_most(a, b), c) <= f->back;
-    if (mask_of_8(front | back) == 0) return 0;
+    const uint inside = mask_of_8(front | back);
+    if (inside == 0) return 0;
     const float8 determinant = (a + b) + c;
-    const float8 range = ((a * z[0] + b * z[1]) + c * z[2]) * s.scale_z / determinant;
+    float8 range = ((a * z[0] + b * z[1]) + c * z[2]) * s.scale_z / determinant;
+    const uint among_long = inside & ((1u << ray_long_of(leaf)) - 1);
+    if (among_long) range = ray_ranges_of_long(f, block, among_long, limit, range);
     *out_range = range;
-    return mask_of_8((front | back) & (range > 0.0f) & (range <= limit));
-}
-
-/* The first block of a leaf. */
-static inline uint ray_block_of(const uint leaf)
-{
-    return (leaf & ~BVH_LEAF) >> 4;
+    return inside & mask_of_8((range > 0.0f) & (range <= limit));
 }
 
 /* Asks for the memory of a child that will soon be visited: the five lines of a block, or the four of a
@@ -181,11 +222,11 @@ static inline uint ray_pop(const ulong *stack, uint *depth, const float limit)
 static inline void ray_visit_leaf(const ray_frame *f, global const bvh_block *blocks,
                                   const uint leaf, const float limit, ray_hit *hit)
 {
-    const uint first = ray_block_of(leaf), count = leaf & 15;
+    const uint first = ray_block_of(leaf), count = leaf & 1;
 
     for (uint b = first; b < first + count; b++) {
         float8 range;
-        uint mask = ray_meets(f, blocks + b, fmin(hit->range, limit), &range);
+        uint mask = ray_meets(f, blocks + b, leaf, fmin(hit->range, limit), &range);
         if (mask == 0) continue;
         float met[8];
         vstore8(range, 0, met);
@@ -257,9 +298,9 @@ static inline uint ray_any_below(const ray_frame *f, global const bvh_node *node
         const uint word = stack[--depth];
         float8 range;
         if (word & BVH_LEAF) {
-            const uint first = ray_block_of(word), count = word & 15;
+            const uint first = ray_block_of(word), count = word & 1;
             for (uint b = first; b < first + count; b++)
-                if (ray_meets(f, blocks + b, limit, &range)) return 1;
+                if (ray_meets(f, blocks + b, word, limit, &range)) return 1;
             continue;
         }
         uint mask = ray_enters(f, nodes + word, limit, &range);
@@ -279,7 +320,7 @@ static inline uint ray_any(global const bvh_node *nodes, global const bvh_block 
 }
 
 /* The record of a hit: its point from the weights of the vertices, which is nearer to the facet than
- * any point along a long ray. */
+ * any point along a long ray; but that of a long triangle may be nearer along the ray. */
 static inline hit_record ray_record(global const bvh_block *blocks, const ray *r, const ray_hit hit)
 {
     const triangle_shear shear = triangle_shear_of(r->direction);
@@ -287,10 +328,7 @@ static inline hit_record ray_record(global const bvh_block *blocks, const ray *r
     float vertex[3][3], weight[3], range, along = 0;
 
     if (hit.facet == RECORD_NONE) return record;
-    UNROLL
-    for (int v = 0; v < 3; v++) UNROLL
-    for (int k = 0; k < 3; k++)
-        vertex[v][k] = blocks[hit.triangle / 8].vertex[v][k][hit.triangle % 8];
+    ray_triangle(blocks + hit.triangle / 8, hit.triangle % 8, vertex);
     triangle_meet(vertex, r->origin, &shear, &range, weight);
     triangle_normal(vertex, record.normal);
     UNROLL
@@ -299,21 +337,34 @@ static inline hit_record ray_record(global const bvh_block *blocks, const ray *r
             (weight[0] * vertex[0][k] + weight[1] * vertex[1][k]) + weight[2] * vertex[2][k];
         along += record.normal[k] * r->direction[k];
     }
+    if (triangle_is_long(vertex))
+        triangle_point(vertex, r->origin, r->direction, &shear, record.point);
     UNROLL
     for (int k = 0; k < 3 && along > 0; k++) record.normal[k] = -record.normal[k];
     return record;
 }
 
-/* A ray that leaves a surface: it starts a little above it, by more than the rounding of the scene's
- * coordinates, so that a plane does not meet itself. */
+/* How far above a surface a ray starts that leaves it: by more than the rounding of its point, and of the
+ * ranges of facets that are not long, so that a plane does not meet itself. */
+static inline float ray_offset(const world_record *world, const float point[3],
+                               const float normal[3])
+{
+    const float size =
+        (fabs(point[0] * normal[0]) + fabs(point[1] * normal[1])) + fabs(point[2] * normal[2]);
+
+    return fmax(world->offset_m, RAY_PAD * size);
+}
+
+/* A ray that leaves a surface. */
 static inline ray ray_leaving(const world_record *world, const float point[3],
                               const float normal[3], const float direction[3])
 {
+    const float offset_m = ray_offset(world, point, normal);
     ray r = {.limit = MAXFLOAT, .cull_back = world->cull_back};
 
     UNROLL
     for (int k = 0; k < 3; k++) {
-        r.origin[k] = point[k] + world->offset_m * normal[k];
+        r.origin[k] = point[k] + offset_m * normal[k];
         r.direction[k] = direction[k];
     }
     return r;

@@ -16,7 +16,8 @@ typedef struct ray_lanes_bound {
  * else. */
 typedef struct ray_lanes {
     float16 reciprocal[3], near[3], far[3];
-    float16 origin[3]; /* along the shear's x, y and z */
+    float16 origin[3];                          /* along the shear's x, y and z */
+    const float (*start)[16], (*direction)[16]; /* of the world, as given */
     float16 slope_x, slope_y, scale_z;
     int16 along_y, along_z; /* the shear's z is that axis of the world, else x */
     float16 front, back; /* edges are met from front up and from back down; see ray_lanes_inside */
@@ -138,7 +139,8 @@ static inline ray_lanes ray_lanes_of(const float origin[3][16], const float dire
 {
     const uint first = 31 - clz(alive & -alive);
     const int16 in_use = ray_lanes_of_mask(alive);
-    ray_lanes f = {.front = 0, .back = 0, .octant = 0, .coherent = 1};
+    ray_lanes f = {
+        .front = 0, .back = 0, .octant = 0, .coherent = 1, .start = origin, .direction = direction};
     float16 o[3], d[3], reach = 0;
 
     UNROLL
@@ -312,6 +314,87 @@ INLINE ray_lanes_edges ray_lanes_edges_of_two(const ray_lanes *f, global const b
         y[v] = ((float16)(at_y, at_y) - origin[1]) - slope_y * z[v];
     }
     return ray_lanes_edges_of(x, y, z, ray_lanes_two(&f->scale_z, first, second));
+}
+
+/* What triangle_plane_range tells, of one triangle for all lanes. */
+static inline float16 ray_lanes_plane_range(const ray_lanes *f, const float vertex[3][3])
+{
+    const triangle_plane plane = triangle_plane_of(vertex);
+    double_float16 distance = {0, 0}, speed = {0, 0};
+
+    for (int k = 0; k < 3; k++) {
+        const double_float16 normal = {plane.normal[k].high, plane.normal[k].low};
+        const double_float16 along = {*(const float16 *)f->direction[k], 0};
+        const double_float16 away =
+            double_float16_sum((float16)vertex[plane.corner][k], -*(const float16 *)f->start[k]);
+        distance = double_float16_add(distance, double_float16_multiply(normal, away));
+        speed = double_float16_add(speed, double_float16_multiply(normal, along));
+    }
+    return double_float16_divide(distance, speed).high;
+}
+
+/* The largest magnitude of the three. */
+static inline float16 ray_lanes_widest(const float16 of[3])
+{
+    return ray_lanes_most(ray_lanes_most(fabs(of[0]), fabs(of[1])), fabs(of[2]));
+}
+
+/* What triangle_doubt tells, but for the scale. */
+static inline float16 ray_lanes_doubt(const float16 x[3], const float16 y[3], const float16 z[3],
+                                      const float16 determinant)
+{
+    const float16 u = z[1] - z[0], v = z[2] - z[0];
+    const float16 rise_x = u * (y[2] - y[0]) - v * (y[1] - y[0]);
+    const float16 rise_y = u * (x[2] - x[0]) - v * (x[1] - x[0]);
+    const float16 wide_x = ray_lanes_widest(x), wide_y = ray_lanes_widest(y);
+    const float16 far = ray_lanes_widest(z);
+
+    return (far * determinant + (far + (wide_x + wide_y)) * (fabs(rise_x) + fabs(rise_y))) +
+           (wide_x * wide_y) * (fabs(u) + fabs(v));
+}
+
+/* Where lanes inside of a long triangle meet it: triangle_range for all. */
+RARE float16 ray_lanes_range(const ray_lanes *f, global const bvh_block *block, const uint lane,
+                             const int16 inside, const float16 limit)
+{
+    float16 x[3], y[3], z[3];
+    float vertex[3][3];
+
+    ray_lanes_shear(f, block, lane, 3, x, y, z);
+    const ray_lanes_edges e = ray_lanes_edges_of(x, y, z, f->scale_z);
+    const float16 doubt = ray_lanes_doubt(x, y, z, fabs(e.determinant)) * fabs(f->scale_z);
+    const float16 range = e.distance / e.determinant;
+    const float16 error = TRIANGLE_ROUNDING * doubt / fabs(e.determinant);
+    const int16 again = inside & (doubt > TRIANGLE_DOUBT * fabs(e.distance)) &
+                        ~((range + error <= 0.0f) | (range - error > limit));
+    if (mask_of_16(again) == 0) return range;
+    ray_triangle(block, lane, vertex);
+    const float16 below = ray_lanes_least(ray_lanes_plane_range(f, vertex), range + error);
+    const float16 near = ray_lanes_most(below, range - error);
+    const int16 wrong = again & (fabs(near - range) > TRIANGLE_RIGHT * fabs(near));
+    return wrong ? near : range;
+}
+
+/* The same for one lane.
+ *   axis   of the lanes, below 3 */
+RARE float ray_lanes_range_of_one(const ray_lanes *f, global const bvh_block *block,
+                                  const uint lane, const uint axis, const uint triangle,
+                                  const float limit)
+{
+    const triangle_shear s = {axis == 2 ? 0 : axis + 1,
+                              axis == 0 ? 2 : axis - 1,
+                              axis,
+                              ((const float *)&f->slope_x)[lane],
+                              ((const float *)&f->slope_y)[lane],
+                              ((const float *)&f->scale_z)[lane]};
+    float vertex[3][3], origin[3], direction[3];
+
+    for (int k = 0; k < 3; k++) {
+        origin[k] = f->start[k][lane];
+        direction[k] = f->direction[k][lane];
+    }
+    ray_triangle(block, triangle, vertex);
+    return triangle_range(vertex, origin, direction, &s, limit);
 }
 
 #endif

@@ -32,10 +32,9 @@ static inline ray_hit ray_leaf_get(const ray_leaf_nearest *best, const uint lane
 }
 
 /* Takes what is nearer on a triangle. */
-INLINE void ray_leaf_take(ray_leaf_nearest *best, const ray_lanes_edges *e, const int16 inside,
+INLINE void ray_leaf_take(ray_leaf_nearest *best, const float16 range, const int16 inside,
                           const uint triangle, const uint facet)
 {
-    const float16 range = e->distance / e->determinant;
     const int16 met = inside & (range > 0.0f) & (range <= best->range);
     const int16 nearer = met & ((range < best->range) | ((uint16)facet < best->facet));
 
@@ -50,7 +49,7 @@ INLINE void ray_leaf_closest(const ray_lanes *f, global const bvh_block *blocks,
                              const uint axis, const int16 active, const uint rays,
                              ray_leaf_nearest *best)
 {
-    const uint b = ray_block_of(leaf);
+    const uint b = ray_block_of(leaf), long_count = ray_long_of(leaf);
 
     for (uint i = 0; i < 8 && blocks[b].facet[i] != RECORD_NONE; i += 2) {
         ray_lanes_edges e[2];
@@ -62,23 +61,34 @@ INLINE void ray_leaf_closest(const ray_lanes *f, global const bvh_block *blocks,
         }
         if ((mask_of_16(inside[0] | inside[1]) & rays) == 0) continue;
         UNROLL
-        for (uint k = 0; k < 2; k++)
-            ray_leaf_take(best, &e[k], active & inside[k], b * 8 + i + k, blocks[b].facet[i + k]);
+        for (uint k = 0; k < 2; k++) {
+            const int16 own = active & inside[k];
+            const float16 range = i + k < long_count
+                                      ? ray_lanes_range(f, blocks + b, i + k, own, best->range)
+                                      : e[k].distance / e[k].determinant;
+            ray_leaf_take(best, range, own, b * 8 + i + k, blocks[b].facet[i + k]);
+        }
     }
 }
 
-/* Tells which lanes meet anything: a bit each. */
+/* Tells which lanes meet anything: a bit each.
+ *   rays   of the lanes that look */
 INLINE uint ray_leaf_any(const ray_lanes *f, global const bvh_block *blocks, const uint leaf,
-                         const uint axis)
+                         const uint axis, const uint rays)
 {
     global const bvh_block *block = blocks + ray_block_of(leaf);
+    const uint long_count = ray_long_of(leaf);
     int16 met = 0;
 
     for (uint i = 0; i < 8 && block->facet[i] != RECORD_NONE; i++) {
         const ray_lanes_edges e = ray_lanes_edges_of_one(f, block, i, axis);
-        met |= ray_lanes_inside(&e, f->front, f->back) & ray_lanes_before(&e);
+        const int16 inside = ray_lanes_inside(&e, f->front, f->back);
+        if (i >= long_count)
+            met |= inside & ray_lanes_before(&e);
+        else if (mask_of_16(inside) & rays)
+            met |= inside & (ray_lanes_range(f, block, i, inside, 0) > 0.0f);
     }
-    return mask_of_16(met);
+    return mask_of_16(met) & rays;
 }
 
 /* Looks for nearer triangles, two lanes at a time.
@@ -87,7 +97,7 @@ INLINE void ray_leaf_closest_two(const ray_lanes *f, global const bvh_block *blo
                                  const uint leaf, const uint axis, uint rays,
                                  ray_leaf_nearest *best)
 {
-    const uint b = ray_block_of(leaf);
+    const uint b = ray_block_of(leaf), among_long = ((1u << ray_long_of(leaf)) - 1) * 0x101;
     const ray_leaf_nearest before = *best;
 
     while (rays) {
@@ -100,9 +110,14 @@ INLINE void ray_leaf_closest_two(const ray_lanes *f, global const bvh_block *blo
                                               ray_lanes_two(&f->back, lane[0], lane[1]));
         const float16 limit = ray_lanes_two(&before.range, lane[0], lane[1]);
         uint met = mask_of_16(inside & (range > 0.0f) & (range <= limit));
+        if (among_long) met |= mask_of_16(inside) & among_long;
         while (met) {
             const uint i = ray_lanes_next(&met), side = i / 8;
-            const ray_hit hit = {((const float *)&range)[i], blocks[b].facet[i % 8], b * 8 + i % 8};
+            ray_hit hit = {((const float *)&range)[i], blocks[b].facet[i % 8], b * 8 + i % 8};
+            if (among_long >> i & 1)
+                hit.range = ray_lanes_range_of_one(f, blocks + b, lane[side], axis, i % 8,
+                                                   ray_leaf_get(best, lane[side]).range);
+            if (!(hit.range > 0.0f)) continue;
             const ray_hit now = ray_leaf_get(best, lane[side]);
             if (hit.range < now.range || (hit.range == now.range && hit.facet < now.facet))
                 ray_leaf_set(best, lane[side], hit);
@@ -115,6 +130,7 @@ INLINE uint ray_leaf_any_two(const ray_lanes *f, global const bvh_block *blocks,
                              const uint axis, uint rays)
 {
     global const bvh_block *block = blocks + ray_block_of(leaf);
+    const uint among_long = ((1u << ray_long_of(leaf)) - 1) * 0x101;
     uint met = 0;
 
     while (rays) {
@@ -122,7 +138,12 @@ INLINE uint ray_leaf_any_two(const ray_lanes *f, global const bvh_block *blocks,
         const ray_lanes_edges e = ray_lanes_edges_of_two(f, block, a, b, axis);
         const int16 inside =
             ray_lanes_inside(&e, ray_lanes_two(&f->front, a, b), ray_lanes_two(&f->back, a, b));
-        const uint own = mask_of_16(inside & ray_lanes_before(&e));
+        uint own = mask_of_16(inside & ray_lanes_before(&e));
+        for (uint left = among_long ? mask_of_16(inside) & among_long : 0; left;) {
+            const uint i = ray_lanes_next(&left);
+            const float range = ray_lanes_range_of_one(f, block, i < 8 ? a : b, axis, i % 8, 0.0f);
+            own = (own & ~(1u << i)) | (uint)(range > 0.0f) << i;
+        }
         met |= (uint)((own & 0xff) != 0) << a | (uint)(own >> 8 != 0) << b;
     }
     return met;

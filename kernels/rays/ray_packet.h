@@ -276,8 +276,8 @@ INLINE uint ray_packet_any_leaf(ray_packet_walk *w, global const bvh_node *nodes
         return ray_leaf_any_two(f, blocks, leaf, f->axis, active);
     if (popcount(active) <= ray_packet_few(w->together, 1))
         return ray_packet_any_single(w, nodes, blocks, leaf, active);
-    if (f->axis == 3) return active & ray_leaf_any(f, blocks, leaf, 3);
-    return active & ray_leaf_any(f, blocks, leaf, f->axis % 3);
+    if (f->axis == 3) return ray_leaf_any(f, blocks, leaf, 3, active);
+    return ray_leaf_any(f, blocks, leaf, f->axis % 3, active);
 }
 
 /* Tells which lanes of a packet that was started meet anything: a bit each. */

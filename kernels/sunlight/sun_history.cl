@@ -27,12 +27,13 @@ static lit_points take_points(const world_record *world, global const facet_reco
         const float outward = at.normal[0] * facet.normal[0] + at.normal[1] * facet.normal[1] +
                               at.normal[2] * facet.normal[2];
         const float side = outward < 0 ? -1.0f : 1.0f;
+        const float offset_m = ray_offset(world, at.point, at.normal);
         out.met |= 1u << i;
         out.two_sided |= (uint)(facet.two_sided != 0) << i;
         out.ground |= (uint)(at.facet == world->ground_facet) << i;
         for (int k = 0; k < 3; k++) {
             LANES_SET(out.point[k], i, at.point[k]);
-            LANES_SET(out.above[k], i, world->offset_m * (side * at.normal[k]));
+            LANES_SET(out.above[k], i, offset_m * (side * at.normal[k]));
             LANES_SET(out.normal[k], i, facet.normal[k]);
         }
     }

@@ -14,7 +14,7 @@ class RayWorld:
         self.facet_count = len(mesh[0])
         self.world = np.zeros(1, WORLD)
         self.world["ground_facet"] = NONE
-        self.world["offset_m"] = 2.0**-20 * max(np.abs(low).max(), np.abs(high).max())
+        self.world["offset_m"] = 2.0**-20 * min(max(np.abs(low).max(), np.abs(high).max()), 4096)
         self.tree = {"world": self.world, "nodes": nodes.view(BVH_NODE), "blocks": blocks.view(BVH_BLOCK)}
 
     def run(self, name, shape, local=64, options="", **arguments):
