@@ -181,6 +181,7 @@ static status run(const thermal_request *request)
     record = command_material_record(named);
     TRY(weather_history_read(&w, request->weather, &request->place));
     weather_place_check_day(w, &request->place, request->weather);
+    forcing_check(w, &matter.laws, request->weather);
     temperature_k = malloc(w->count * sizeof *temperature_k);
     NEED(temperature_k, STATUS_MEMORY, "no memory for %zu temperatures", w->count);
     TRY(compute(&facet, &matter, w, &request->place, temperature_k));

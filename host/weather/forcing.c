@@ -24,6 +24,8 @@ const char *const forcing_convection_names[FORCING_CONVECTIONS] = {"", "therm", 
                                                                    "similarity"};
 const char *const forcing_diffuse_names[FORCING_DIFFUSES] = {"isotropic", "hay-davies"};
 
+enum { ALTOSTRATUS = 4, FOG = 8 };
+
 /* Rise of the sky's emissivity under an overcast of each cloud type: Bolz. */
 static const double cloud_rise[WEATHER_CLOUD_TYPES] = {0.0,  0.04, 0.08, 0.17, 0.20,
                                                        0.22, 0.24, 0.25, 0.25};
@@ -41,11 +43,25 @@ static double clear_emissivity(const weather_record *w, forcing_sky sky)
     return 0.605 + 0.048 * sqrt(vapour_mbar);
 }
 
-static double sky_longwave_w_m2(const weather_record *w, forcing_sky sky)
+/* assumed: what is not told to be of another type is altostratus. */
+static bool lacks_type(const weather_record *w)
 {
-    const double cover = 1.0 - w->sky_exposure, air_k = w->air_temperature_k;
-    const double cloudy = 1.0 + cloud_rise[w->cloud_type] * cover * cover;
-    const double emissivity = fmin(1.0, clear_emissivity(w, sky) * cloudy);
+    return w->sky_exposure < 1.0 && w->cloud_type == 0 && !(w->longwave_w_m2 > 0.0);
+}
+
+static double cloudy_emissivity(const weather_record *w, double clear, bool thesis)
+{
+    const double cover = 1.0 - w->sky_exposure;
+    const int type = lacks_type(w) && !thesis ? ALTOSTRATUS : w->cloud_type;
+
+    if (type == FOG && !thesis) return clear + fmax(0.0, 1.0 - clear) * cover * cover;
+    return clear * (1.0 + cloud_rise[type] * cover * cover);
+}
+
+static double sky_longwave_w_m2(const weather_record *w, const forcing_laws *laws)
+{
+    const double air_k = w->air_temperature_k, clear = clear_emissivity(w, laws->sky);
+    const double emissivity = fmin(1.0, cloudy_emissivity(w, clear, laws->thesis));
 
     if (w->longwave_w_m2 > 0.0) return w->longwave_w_m2;
     return emissivity * (double)STEFAN_BOLTZMANN * air_k * air_k * air_k * air_k;
@@ -103,7 +119,7 @@ forcing_record forcing_of(const weather_record *w, sun_position sun, const forci
     if (laws->diffuse == FORCING_HAY_DAVIES) move_circumsolar(&direct_w_m2, &diffuse_w_m2, sun);
     forcing_record out = {
         .air_temperature_k = (float)w->air_temperature_k,
-        .sky_longwave_w_m2 = (float)sky_longwave_w_m2(w, laws->sky),
+        .sky_longwave_w_m2 = (float)sky_longwave_w_m2(w, laws),
         .direct_w_m2 = (float)direct_w_m2,
         .diffuse_w_m2 = (float)diffuse_w_m2,
         .rain_w_m2_k = (float)(WATER_J_M3_K * rain_m_s),
@@ -117,4 +133,15 @@ forcing_record forcing_of(const weather_record *w, sun_position sun, const forci
     sun_direction(sun, direction);
     for (int i = 0; i < 3; i++) out.sun[i] = (float)direction[i];
     return out;
+}
+
+void forcing_check(const weather *w, const forcing_laws *laws, const char *name)
+{
+    size_t count = 0;
+
+    for (size_t i = 0; i < w->count && !laws->thesis; i++) count += lacks_type(&w->record[i]);
+    if (count > 0)
+        status_warn("%s: a sky exposure below 1 without a cloud type in %zu of %zu records: their "
+                    "longwave is that of altostratus (cloud type %d)",
+                    name, count, w->count, ALTOSTRATUS);
 }

@@ -67,6 +67,44 @@ static void clouds_raise_every_law_and_measured_longwave_none(void **state)
     assert_near(emissivity(&w, FORCING_BRUNT) * 5.670374419e-8 * pow(293.15, 4), 333, 1e-3);
 }
 
+static void the_longwave_of_fog_is_that_of_black_air(void **state)
+{
+    (void)state;
+    weather_record w = mild();
+    w.cloud_type = 8;
+    const double clear = emissivity(&w, FORCING_BRUNT);
+
+    w.sky_exposure = 0;
+    assert_near(emissivity(&w, FORCING_BRUNT), 1, 1e-6);
+    w.sky_exposure = 0.5;
+    assert_near(emissivity(&w, FORCING_BRUNT), clear + 0.25 * (1 - clear), 1e-6);
+}
+
+static void clouds_without_a_type_count_as_altostratus(void **state)
+{
+    (void)state;
+    weather_record w = mild();
+    const double clear = emissivity(&w, FORCING_BRUNT);
+
+    w.sky_exposure = 0.5;
+    assert_near(emissivity(&w, FORCING_BRUNT), clear * (1 + 0.20 * 0.25), 1e-6);
+}
+
+static void thesis_mode_keeps_its_fog_and_its_clouds_without_a_type(void **state)
+{
+    (void)state;
+    const forcing_laws laws = {.thesis = true};
+    weather_record w = mild();
+    const double clear = emissivity(&w, FORCING_BRUNT), black = 5.670374419e-8 * pow(293.15, 4);
+
+    w.sky_exposure = 0;
+    assert_near((double)forcing_of(&w, at_30_deg, &laws, false).sky_longwave_w_m2 / black, clear,
+                1e-6);
+    w.cloud_type = 8;
+    assert_near((double)forcing_of(&w, at_30_deg, &laws, false).sky_longwave_w_m2 / black,
+                clear * 1.25, 1e-6);
+}
+
 static void convection_is_the_model_s_own_unless_stated(void **state)
 {
     (void)state;
@@ -194,6 +232,9 @@ int main(void)
         cmocka_unit_test(clear_skies_have_the_emissivity_of_their_laws),
         cmocka_unit_test(berdahl_s_sky_is_colder_at_noon_and_warmer_under_pressure),
         cmocka_unit_test(clouds_raise_every_law_and_measured_longwave_none),
+        cmocka_unit_test(the_longwave_of_fog_is_that_of_black_air),
+        cmocka_unit_test(clouds_without_a_type_count_as_altostratus),
+        cmocka_unit_test(thesis_mode_keeps_its_fog_and_its_clouds_without_a_type),
         cmocka_unit_test(convection_is_the_model_s_own_unless_stated),
         cmocka_unit_test(tarp_s_wind_is_that_of_a_medium_rough_plate),
         cmocka_unit_test(similarity_takes_the_logarithmic_wind_s_part),
