@@ -15,6 +15,8 @@
 #define AIR_J_KG_K 287.05
 #define AIR_HEAT_J_KG_K 1005.0
 #define LEAST_WIND_M_S 0.1
+#define USUAL_HEIGHT_M 10.0
+#define USUAL_LENGTH_M 0.001
 
 /* The sun at the horizon: below this cosine diffuse light from its direction grows no more. */
 #define LEAST_COSINE 0.01745
@@ -67,11 +69,34 @@ static double sky_longwave_w_m2(const weather_record *w, const forcing_laws *law
     return emissivity * (double)STEFAN_BOLTZMANN * air_k * air_k * air_k * air_k;
 }
 
+static double height_of(const forcing_laws *laws)
+{
+    return laws->wind_height_m > 0.0 ? laws->wind_height_m : USUAL_HEIGHT_M;
+}
+
+static double length_of(const forcing_laws *laws)
+{
+    return laws->roughness_length_m > 0.0 ? laws->roughness_length_m : USUAL_LENGTH_M;
+}
+
+/* The wind at 10 m. */
+static double usual_wind_m_s(const weather_record *w, const forcing_laws *laws)
+{
+    const double length_m = length_of(laws);
+
+    if (laws->thesis) return w->wind_m_s;
+    return w->wind_m_s * (log(USUAL_HEIGHT_M / length_m) / log(height_of(laws) / length_m));
+}
+
+static double tarp_w_m2_k(double wind_m_s)
+{
+    return TARP_W_M2_K * sqrt(wind_m_s);
+}
+
 /* Louis' law for heat, its constants as he gives them. */
 static void set_similarity(forcing_record *out, const weather_record *w, const forcing_laws *laws)
 {
-    const double height_m = laws->wind_height_m > 0.0 ? laws->wind_height_m : 10.0;
-    const double length_m = laws->roughness_length_m > 0.0 ? laws->roughness_length_m : 0.001;
+    const double height_m = height_of(laws), length_m = length_of(laws);
     const double wind_m_s = fmax(LEAST_WIND_M_S, w->wind_m_s);
     const double warmth_k = w->air_temperature_k * (1.0 + 0.608 * weather_specific_humidity(w));
     const double density_kg_m3 = w->pressure_pa / (AIR_J_KG_K * warmth_k);
@@ -81,6 +106,8 @@ static void set_similarity(forcing_record *out, const weather_record *w, const f
     out->convection_w_m2_k = (float)(density_kg_m3 * AIR_HEAT_J_KG_K * drag / 0.74 * wind_m_s);
     out->buoyancy = (float)(GRAVITY_M_S2 * height_m / (wind_m_s * wind_m_s));
     out->roughness = (float)(5.3 * 9.4 * drag * sqrt(height_m / length_m));
+    if (!laws->thesis)
+        out->plate_w_m2_k = (float)tarp_w_m2_k(fmax(LEAST_WIND_M_S, usual_wind_m_s(w, laws)));
 }
 
 static void set_convection(forcing_record *out, const weather_record *w, const forcing_laws *laws,
@@ -88,15 +115,17 @@ static void set_convection(forcing_record *out, const weather_record *w, const f
 {
     const forcing_convection law = laws->convection;
     const bool is_mcadams = law == FORCING_MCADAMS || (law == FORCING_BY_MODEL && is_layered);
+    const double wind_m_s = usual_wind_m_s(w, laws);
 
-    out->convection_law = law == FORCING_TARP ? CONVECTION_TARP : CONVECTION_WIND;
+    out->convection_law = law == FORCING_TARP ? CONVECTION_TARP
+                          : laws->thesis      ? CONVECTION_WIND
+                                              : CONVECTION_BLENDED;
     if (law == FORCING_SIMILARITY)
         set_similarity(out, w, laws);
     else if (law == FORCING_TARP)
-        out->convection_w_m2_k = (float)(TARP_W_M2_K * sqrt(w->wind_m_s));
+        out->convection_w_m2_k = (float)tarp_w_m2_k(wind_m_s);
     else
-        out->convection_w_m2_k =
-            (float)(is_mcadams ? 5.7 + 3.8 * w->wind_m_s : 9.0 + 1.2 * w->wind_m_s);
+        out->convection_w_m2_k = (float)(is_mcadams ? 5.7 + 3.8 * wind_m_s : 9.0 + 1.2 * wind_m_s);
 }
 
 /* Diffuse light from the sun's direction goes with the beam, and into shadow with it. */

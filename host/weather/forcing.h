@@ -16,7 +16,8 @@
  *   Brutsaert        1.24 (e/Ta)^(1/7): Water Resources Research 11 (1975) 742 */
 typedef enum forcing_sky { FORCING_BRUNT, FORCING_BERDAHL_MARTIN, FORCING_BRUTSAERT } forcing_sky;
 
-/* Heat that air takes, W m-2 K-1, at a wind of V m/s. */
+/* Heat that air takes, W m-2 K-1, at a wind of V m/s, 10 m high. The first two are blended with what
+ * rises by itself, but for thesis mode: kernels/thermal/convection.h. */
 typedef enum forcing_convection {
     FORCING_BY_MODEL, /* THERM's, of layered facets McAdams' */
     FORCING_THERM,    /* 9 + 1.2 V */
@@ -34,8 +35,11 @@ typedef struct forcing_laws {
     forcing_sky sky;
     forcing_convection convection;
     forcing_diffuse diffuse;
-    double roughness_length_m, wind_height_m; /* of similarity; 0: 0.001 and 10 */
-    bool thesis; /* all as THERM is reconstructed, without what came later */
+    double roughness_length_m; /* of similarity; 0: 0.001 */
+    double
+        wind_height_m; /* of the weather's wind; 0: 10. Between that and 10 m it is logarithmic over
+                                  the roughness length; in thesis mode of similarity alone */
+    bool thesis;       /* all as THERM is reconstructed, without what came later */
 } forcing_laws;
 
 enum { FORCING_SKIES = 3, FORCING_CONVECTIONS = 5, FORCING_DIFFUSES = 2 };

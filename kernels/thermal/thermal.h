@@ -102,6 +102,7 @@ static inline convection_air thermal_air_of(forcing_record now)
     air.wind_w_m2_k = now.convection_w_m2_k;
     air.buoyancy = now.buoyancy;
     air.roughness = now.roughness;
+    air.plate_w_m2_k = now.plate_w_m2_k;
     return air;
 }
 
