@@ -113,7 +113,7 @@ typedef struct forcing_record {
     float pressure_pa;
     uint convection_law; /* CONVECTION_..., see convection.h, as for the next three */
     float buoyancy, roughness, plate_w_m2_k;
-    uint condenses; /* what is in the air on surfaces below its dew point: 0 or 1 */
+    float wet_below_k; /* what is colder may get wet of the air's vapour; 0: nothing does */
     uint unused[3];
 } forcing_record;
 RECORD_SIZE(forcing_record, 80);

@@ -128,6 +128,17 @@ static void set_convection(forcing_record *out, const weather_record *w, const f
         out->convection_w_m2_k = (float)(is_mcadams ? 5.7 + 3.8 * wind_m_s : 9.0 + 1.2 * wind_m_s);
 }
 
+/* Above the frost point by the rounding of single precision; below 0 C vapour condenses earlier on ice. */
+static double wet_below_k(const weather_record *w, const forcing_laws *laws)
+{
+    const double vapour = log(weather_saturation_pa(w->dew_point_k) / 611.2);
+    const double frost_k = (double)ZERO_CELSIUS_K + 272.62 * vapour / (22.46 - vapour);
+    const double margin_k = 0.05;
+
+    if (laws->thesis || !(w->relative_humidity > 0.0)) return 0.0;
+    return fmax(w->dew_point_k, fmin(frost_k, (double)ZERO_CELSIUS_K)) + margin_k;
+}
+
 /* Diffuse light from the sun's direction goes with the beam, and into shadow with it. */
 static void move_circumsolar(double *direct_w_m2, double *diffuse_w_m2, sun_position sun)
 {
@@ -157,6 +168,7 @@ forcing_record forcing_of(const weather_record *w, sun_position sun, const forci
             (float)(rain_m_s > 0.0 ? w->precipitation_temperature_k : w->air_temperature_k),
         .specific_humidity = (float)weather_specific_humidity(w),
         .pressure_pa = (float)w->pressure_pa,
+        .wet_below_k = (float)wet_below_k(w, laws),
     };
     set_convection(&out, w, laws, is_layered);
     sun_direction(sun, direction);

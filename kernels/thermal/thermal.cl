@@ -16,6 +16,16 @@ static void set_bodies(thermal_body *body, lanes *stated_k, uint *material, ther
     }
 }
 
+static thermal_load load_at(const load_tables *loads, thermal_span span, const thermal_body *body,
+                            const uint *material, uint first, uint step)
+{
+    thermal_load load =
+        thermal_load_of(body, loads->forcing[step], sunlit_at(loads, span, first, step));
+
+    load.direct_w_m2 += power_at(loads, material, step);
+    return load;
+}
+
 /* Launch: (facet_count / LANES_WIDTH, rounded up).
  * facets: shape (facet_count), thickness above 0 and a material of `materials` unless its
  * temperature is stated; temperature_k: (row_count, facet_count). */
@@ -31,19 +41,20 @@ SHARED_BODY kernel void thermal(const thermal_span span, global const facet_reco
     lanes stated_k;
     uint material[LANES_WIDTH];
     set_bodies(&body, &stated_k, material, span, first, facets, materials);
-    thermal_load before =
-        thermal_load_of(&body, loads.forcing[0], sunlit_at(&loads, span, first, 0));
-    before.direct_w_m2 += power_at(&loads, material, 0);
-    thermal_state state = thermal_start(&body, &before);
+    thermal_way way = {.after = load_at(&loads, span, &body, material, first, 0),
+                       .air_after = moisture_air_of(loads.forcing[0]),
+                       .step_s = span.step_s,
+                       .count = thermal_sub_steps(span.step_s)};
+    thermal_state state = thermal_start(&body, &way.after);
     lanes earlier_k = state.front_k;
     for (uint step = 0; step < span.first_step + span.row_count; step++) {
         if (step > 0) {
-            thermal_load after =
-                thermal_load_of(&body, loads.forcing[step], sunlit_at(&loads, span, first, step));
-            after.direct_w_m2 += power_at(&loads, material, step);
             earlier_k = state.front_k;
-            thermal_advance(&state, &body, &before, &after, span.step_s);
-            before = after;
+            way.before = way.after;
+            way.air_before = way.air_after;
+            way.after = load_at(&loads, span, &body, material, first, step);
+            way.air_after = moisture_air_of(loads.forcing[step]);
+            thermal_advance(&state, &body, &way);
         }
         if (step < span.first_step) continue;
         const lanes now_k = earlier_k + span.weight * (state.front_k - earlier_k);

@@ -6,6 +6,7 @@
  *   surroundings     below the horizon: air temperature, reflectance 0.15; the sky's fraction of the
  *                    view is (1 + cos slope) / 2
  *   start            steady balance with the first record
+ *   dew              outside thesis mode, on the front alone (moisture.h)
  * assumed: all of these; see docs/departures.md.
  * LANES_WIDTH facets go side by side; what they do not have in common is chosen lane by lane. */
 #ifndef THERMAL_KERNEL_H
@@ -16,6 +17,7 @@
 #include "kernels/lanes.h"
 #include "kernels/records.h"
 #include "kernels/thermal/convection.h"
+#include "kernels/thermal/moisture.h"
 
 #define THERMAL_NODES 8
 #define THERMAL_SUB_STEP_S 300.0f /* at most */
@@ -47,6 +49,7 @@ typedef struct thermal_load {
 typedef struct thermal_state {
     lanes front_k, back_k;
     lanes node_k[THERMAL_NODES];
+    lanes film_kg_m2; /* of dew on the front */
 } thermal_state;
 
 /* A flux into a face and how much it falls per kelvin that the face gets warmer. */
@@ -176,6 +179,32 @@ static inline thermal_flux thermal_front_flux(const thermal_body *body, const th
     return flux;
 }
 
+/* The same with dew, which is the part of it that `out_dew` tells. */
+static inline thermal_flux thermal_wet_flux(const thermal_body *body, const thermal_load *load,
+                                            moisture_air air, const thermal_state *state,
+                                            float step_s, moisture_flux *out_dew)
+{
+    const lanes convection_w_m2_k =
+        thermal_convection(load, body->front, body->normal[2], state->front_k);
+    thermal_flux flux = thermal_front_flux(body, load, state->front_k);
+
+    *out_dew = moisture_of_dew(air, convection_w_m2_k, state->front_k, state->film_kg_m2, step_s);
+    if (air.wet_below_k > 0.0f) {
+        flux.w_m2 -= out_dew->w_m2;
+        flux.w_m2_k += out_dew->w_m2_k;
+    }
+    return flux;
+}
+
+/* The film after a step in which the front was `rise_k` warmer in the mean than it began. */
+static inline void thermal_step_film(thermal_state *state, moisture_air air, lanes began_k,
+                                     const moisture_flux *dew, lanes rise_k, float step_s)
+{
+    if (air.wet_below_k > 0.0f)
+        state->film_kg_m2 = moisture_film(air, began_k, state->film_kg_m2,
+                                          dew->w_m2 + dew->w_m2_k * rise_k, step_s);
+}
+
 static inline thermal_flux thermal_back_flux(const thermal_body *body, const thermal_load *load,
                                              lanes back_k)
 {
@@ -197,6 +226,7 @@ static inline thermal_state thermal_start(const thermal_body *body, const therma
     thermal_state state;
 
     state.front_k = state.back_k = (lanes)load->air_k;
+    state.film_kg_m2 = none;
     for (int i = 0; i < 24; i++) {
         const thermal_flux front = thermal_front_flux(body, load, state.front_k);
         const thermal_flux back = thermal_back_flux(body, load, state.back_k);
@@ -222,10 +252,12 @@ static inline thermal_state thermal_start(const thermal_body *body, const therma
  * sheets need no shorter steps.
  *   step_k_m2_w   dt / C */
 static inline void thermal_step_lump(thermal_state *state, const thermal_body *body,
-                                     const thermal_load *load, lanes step_k_m2_w)
+                                     const thermal_load *load, moisture_air air, lanes step_k_m2_w,
+                                     float step_s)
 {
-    const thermal_flux front = thermal_front_flux(body, load, state->front_k);
-    thermal_flux all = front;
+    const lanes began_k = state->front_k;
+    moisture_flux dew;
+    thermal_flux all = thermal_wet_flux(body, load, air, state, step_s, &dew);
 
     if (lanes_any(body->back > (lanes)0.0f)) {
         const thermal_flux back = thermal_back_flux(body, load, state->front_k);
@@ -236,6 +268,10 @@ static inline void thermal_step_lump(thermal_state *state, const thermal_body *b
     /* 1 - exp is good to 1e-7 of the way to the balance, far below what 300 K are rounded to. */
     const lanes gain = decay > (lanes)1e-4f ? (1.0f - exp(-decay)) / all.w_m2_k : step_k_m2_w;
     state->front_k += gain * all.w_m2;
+    /* Of the flux, what did not warm the node went with its mean rise. */
+    const lanes mean_k = decay > (lanes)1e-2f ? (1.0f - gain / step_k_m2_w) * all.w_m2 / all.w_m2_k
+                                              : 0.5f * gain * all.w_m2;
+    thermal_step_film(state, air, began_k, &dew, mean_k, step_s);
 }
 
 /* Eight equal nodes, backward Euler, solved for the rises so that single precision suffices:
@@ -277,10 +313,13 @@ static inline thermal_elimination thermal_eliminate(const thermal_body *body, la
 /* The front's face has no capacity: with its flux F - S (T - T_front) and H from it to node 0, node 0
  * rises by (right_0 (H + S) + H F') / (taken_0 (H + S) + H S). One division serves both. */
 static inline void thermal_step_slab(thermal_state *state, const thermal_body *body,
-                                     const thermal_elimination *e, const thermal_load *load)
+                                     const thermal_elimination *e, const thermal_load *load,
+                                     moisture_air air, float step_s)
 {
     const int last = THERMAL_NODES - 1;
-    const thermal_flux front = thermal_front_flux(body, load, state->front_k);
+    const lanes began_k = state->front_k;
+    moisture_flux dew;
+    const thermal_flux front = thermal_wet_flux(body, load, air, state, step_s, &dew);
     const lanes both = e->half_way + front.w_m2_k;
     const lanes all = e->inverse[0] * both + e->half_way * front.w_m2_k;
     const lanes quotient = 1.0f / (both * all);
@@ -308,6 +347,7 @@ static inline void thermal_step_slab(thermal_state *state, const thermal_body *b
         (front.w_m2 - e->half_way * (state->front_k - state->node_k[0])) * (quotient * all);
     state->back_k +=
         (back.w_m2 - e->half_way * (state->back_k - state->node_k[last])) * e->back_way;
+    thermal_step_film(state, air, began_k, &dew, state->front_k - began_k, step_s);
 }
 
 static inline lanes thermal_sub_direct(const thermal_load *before, const thermal_load *after, int i,
@@ -321,52 +361,64 @@ static inline int thermal_sub_steps(float step_s)
     return 2 * (int)ceil(0.5f * step_s / THERMAL_SUB_STEP_S);
 }
 
-/* Goes from one record of the weather to the next. The slab's implicit step takes the load at its
- * end, the lump's at its middle. */
-static inline void thermal_advance_slab(thermal_state *state, const thermal_body *body,
-                                        const thermal_load *before, const thermal_load *after,
-                                        float step_s, int count)
+/* The way from one record of the weather to the next; the air's vapour is held like the sun. */
+typedef struct thermal_way {
+    thermal_load before, after;
+    moisture_air air_before, air_after;
+    float step_s;
+    int count; /* of sub-steps */
+} thermal_way;
+
+static inline moisture_air thermal_sub_air(const thermal_way *way, int i)
 {
-    const thermal_flux back = thermal_back_flux(body, before, state->back_k);
-    const thermal_elimination e = thermal_eliminate(body, back.w_m2_k, step_s / (float)count);
+    return 2 * i < way->count ? way->air_before : way->air_after;
+}
+
+/* The slab's implicit step takes the load at its end, the lump's at its middle. */
+static inline void thermal_advance_slab(thermal_state *state, const thermal_body *body,
+                                        const thermal_way *way)
+{
+    const int count = way->count;
+    const float step_s = way->step_s / (float)count;
+    const thermal_flux back = thermal_back_flux(body, &way->before, state->back_k);
+    const thermal_elimination e = thermal_eliminate(body, back.w_m2_k, step_s);
 
     for (int i = 0; i < count; i++) {
-        const thermal_load load = thermal_load_between(before, after, (float)(i + 1) / (float)count,
-                                                       thermal_sub_direct(before, after, i, count));
-        thermal_step_slab(state, body, &e, &load);
+        const thermal_load load =
+            thermal_load_between(&way->before, &way->after, (float)(i + 1) / (float)count,
+                                 thermal_sub_direct(&way->before, &way->after, i, count));
+        thermal_step_slab(state, body, &e, &load, thermal_sub_air(way, i), step_s);
     }
 }
 
 static inline void thermal_advance_lump(thermal_state *state, const thermal_body *body,
-                                        const thermal_load *before, const thermal_load *after,
-                                        float step_s, int count)
+                                        const thermal_way *way)
 {
-    const lanes step_k_m2_w = step_s / (float)count / body->capacity_j_m2_k;
+    const int count = way->count;
+    const float step_s = way->step_s / (float)count;
+    const lanes step_k_m2_w = way->step_s / (float)count / body->capacity_j_m2_k;
 
     for (int i = 0; i < count; i++) {
         const thermal_load load =
-            thermal_load_between(before, after, ((float)i + 0.5f) / (float)count,
-                                 thermal_sub_direct(before, after, i, count));
-        thermal_step_lump(state, body, &load, step_k_m2_w);
+            thermal_load_between(&way->before, &way->after, ((float)i + 0.5f) / (float)count,
+                                 thermal_sub_direct(&way->before, &way->after, i, count));
+        thermal_step_lump(state, body, &load, thermal_sub_air(way, i), step_k_m2_w, step_s);
     }
     state->back_k = state->front_k;
 }
 
 /* Slabs and lumps side by side: each goes its own way, the other's is not taken. */
 static inline void thermal_advance(thermal_state *state, const thermal_body *body,
-                                   const thermal_load *before, const thermal_load *after,
-                                   float step_s)
+                                   const thermal_way *way)
 {
     const lanes none = 0.0f;
-    const int count = thermal_sub_steps(step_s);
     thermal_state as_lump = *state;
 
-    if (lanes_any(body->slab == none))
-        thermal_advance_lump(&as_lump, body, before, after, step_s, count);
-    if (lanes_any(body->slab != none))
-        thermal_advance_slab(state, body, before, after, step_s, count);
+    if (lanes_any(body->slab == none)) thermal_advance_lump(&as_lump, body, way);
+    if (lanes_any(body->slab != none)) thermal_advance_slab(state, body, way);
     state->front_k = body->slab != none ? state->front_k : as_lump.front_k;
     state->back_k = body->slab != none ? state->back_k : as_lump.back_k;
+    state->film_kg_m2 = body->slab != none ? state->film_kg_m2 : as_lump.film_kg_m2;
 }
 
 #endif

@@ -163,10 +163,10 @@ kernel void probe(global float *out) {
     layered_body body;
     for (int i = 0; i < 3; i++) body.face.normal[i] = i == 2;
     body.day_s_m = body.night_s_m = 0;
-    out[0] = layered_latent(&body, layered_air_of(f), 300.0f, 0.0f).w_m2;
+    out[0] = layered_latent(&body, layered_air_of(f), 300.0f, 0.0f, 300.0f).w_m2;
     f.convection_law = CONVECTION_TARP;
     f.convection_w_m2_k = 9 - 9.482f * cbrt(10.0f) / (7.238f - 1);
-    out[1] = layered_latent(&body, layered_air_of(f), 300.0f, 0.0f).w_m2;
+    out[1] = layered_latent(&body, layered_air_of(f), 300.0f, 0.0f, 300.0f).w_m2;
 }
 """
     program = cl.Program(opencl.context, source).build(

@@ -123,6 +123,24 @@ def test_every_material_of_table_d1_equals_double_precision(thermal, table, two_
     assert abs(single - reference.history(*table, two_days, STEP_S)).max() < 0.05
 
 
+@pytest.mark.parametrize("celsius", [10.0, -4.0])
+def test_every_material_with_dew_or_frost_equals_double_precision(thermal, table, two_days, celsius):
+    wet = two_days.copy()
+    vapour = 611.2 * np.exp(17.62 * celsius / (243.12 + celsius))
+    wet["pressure_pa"], wet["specific_humidity"] = 101325, 0.622 * vapour / (101325 - 0.378 * vapour)
+    wet["wet_below_k"] = 275.15 + celsius
+    for name in ("air_temperature_k", "rain_temperature_k"):
+        wet[name] += celsius - 10
+    wet["sky_longwave_w_m2"] *= 0.9
+
+    single = thermal(*table, wet)
+
+    double = reference.history(*table, wet, STEP_S)
+    wet["wet_below_k"] = 0
+    assert abs(single - double).max() < 0.05
+    assert abs(double - reference.history(*table, wet, STEP_S)).max() > 0.5  # C: it was wet
+
+
 def test_shorter_steps_change_the_table_by_less_than_a_quarter_degree(thermal, table, two_days):
     fine = reference.history(*table, two_days, STEP_S, sub_steps=40)
     rms = np.sqrt(np.mean((thermal(*table, two_days) - fine) ** 2, axis=0))
