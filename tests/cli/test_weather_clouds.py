@@ -130,7 +130,7 @@ def test_clouds_without_a_type_are_told_to_be_altostratus(program, tmp_path, mod
 def test_a_roof_under_clouds_without_a_type_is_warmer_at_night(program, tmp_path):
     night = {**SITE, "time": "1992-06-23T03:00:00-04:00"}
     clear, covered = (
-        program.render(tmp_path, site=night, weather={**WEATHER, "sky_exposure": e},
+        program.render(tmp_path, site=night, weather={**WEATHER, "sky_exposure": e, "relative_humidity_sunrise": 0.5},
                        material=[{**MATTER, "exposed_area": 0.5, "thickness_cm": 0.1}],
                        render={"thermal": "therm"}).planes["temperature_c"] for e in (1.0, 0.0))
 

@@ -82,7 +82,7 @@ def film_after(film, lost, heat, dt):
     return np.clip(film - dt * lost / heat, 0, 0.3)
 
 
-def start(body, load):
+def start(body, load, ratio=1):
     """Bisection: the balance of both faces falls with the front's temperature."""
     low, high = np.full_like(body.front, 1.0), np.full_like(body.front, 2000.0)
     through = np.where(body.slab, body.conductance, 1e12)
@@ -92,15 +92,23 @@ def start(body, load):
         back = front - flux / through
         warms = flux + back_flux(body, load, np.maximum(back, 1.0))[0] > 0
         low, high = np.where(warms, front, low), np.where(warms, high, front)
-    fraction = (np.arange(NODES) + 0.5) / NODES
+    fraction = np.cumsum(thickness(ratio)) - thickness(ratio) / 2
     return front, back, front[:, None] + fraction * (back - front)[:, None]
 
 
-def step_slab(body, load, dt, front, back, node, back_slope, vapour):
+def thickness(ratio):
+    """Of each node, of a slab of 1."""
+    parts = float(ratio) ** np.arange(NODES)
+    return parts / parts.sum()
+
+
+def step_slab(body, load, dt, front, back, node, back_slope, vapour, ratio=1):
     """Backward Euler over face, nodes, face; the faces have no capacity. The back's flux falls with
     its temperature as it did at the last record of the weather."""
-    count, g = len(front), body.conductance * NODES
-    store = body.capacity / (NODES * dt)
+    count, part = len(front), thickness(ratio)
+    middle = np.concatenate([[0], np.cumsum(part) - part / 2, [1]])
+    link = body.conductance[:, None] / np.diff(middle)
+    store = body.capacity[:, None] * part / dt
     a, b = np.zeros((count, NODES + 2, NODES + 2)), np.zeros((count, NODES + 2))
     for face, t, flux_of in ((0, front, front_flux), (NODES + 1, back, back_flux)):
         flux, slope = flux_of(body, load, t)
@@ -108,16 +116,15 @@ def step_slab(body, load, dt, front, back, node, back_slope, vapour):
             slope = back_slope
         else:
             flux, slope = flux - vapour[0], slope + vapour[1]
-        inner = 1 if face == 0 else NODES
-        a[:, face, face], a[:, face, inner] = slope + 2 * g, -2 * g
+        inner, g = (1, link[:, 0]) if face == 0 else (NODES, link[:, NODES])
+        a[:, face, face], a[:, face, inner] = slope + g, -g
         b[:, face] = flux + slope * t
     for j in range(1, NODES + 1):
-        a[:, j, j] += store
-        b[:, j] = store * node[:, j - 1]
-        for other in (j - 1, j + 1):
-            link = 2 * g if other in (0, NODES + 1) else g
-            a[:, j, j] += link
-            a[:, j, other] -= link
+        a[:, j, j] += store[:, j - 1]
+        b[:, j] = store[:, j - 1] * node[:, j - 1]
+        for other, g in ((j - 1, link[:, j - 1]), (j + 1, link[:, j])):
+            a[:, j, j] += g
+            a[:, j, other] -= g
     t = np.linalg.solve(a, b[:, :, None])[:, :, 0]
     return t[:, 0], t[:, -1], t[:, 1:-1]
 
@@ -131,13 +138,13 @@ def step_lump(body, load, dt, t, vapour):
             t + (1 + np.expm1(-decay) / decay) * flux / slope)
 
 
-def history(facets, materials, forcing, step_s, lit=None, sub_steps=4):
+def history(facets, materials, forcing, step_s, lit=None, sub_steps=4, ratio=1):
     """Temperatures, shape (steps, facets); lit: (steps, facets). Nothing is wet at first."""
     body = Body(facets, materials)
     if lit is None:
         lit = np.ones((len(forcing), len(facets)))
     before = load_of(body, forcing[0], lit[0])
-    front, back, node = start(body, before)
+    front, back, node = start(body, before, ratio)
     rows, film = [front], np.zeros(len(facets))
     for earlier, now, sun in zip(forcing, forcing[1:], lit[1:]):
         after = load_of(body, now, sun)
@@ -151,7 +158,8 @@ def history(facets, materials, forcing, step_s, lit=None, sub_steps=4):
             air = earlier if i < sub_steps // 2 else now
             of_lump, of_slab = (dew(body, load, air, front, film, dt) for load in (middle, end))
             lump, mean = step_lump(body, middle, dt, front, of_lump)
-            slab, back, node = step_slab(body, end, dt, front, back, node, back_slope, of_slab)
+            slab, back, node = step_slab(body, end, dt, front, back, node, back_slope, of_slab,
+                                         ratio)
             film = np.where(
                 body.slab, film_after(film, of_slab[0] + of_slab[1] * (slab - front), of_slab[2], dt),
                 film_after(film, of_lump[0] + of_lump[1] * (mean - front), of_lump[2], dt))

@@ -98,7 +98,7 @@ def run(opencl, forcing, area, **matter):
     span = np.zeros(1, SPAN)
     span[0] = (1, 0, len(forcing), 0, 1.0, STEP_S, 0, len(forcing))
     out = np.empty(len(forcing), np.float32)
-    opencl.run("thermal", (1,), span=span, facets=facets, materials=materials,
+    opencl.run("thermal", (1,), span=span, thesis=1, facets=facets, materials=materials,
                load={"forcing": forcing, "power_materials": 0}, temperature_k=out)
     return out
 

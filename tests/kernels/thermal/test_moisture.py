@@ -43,7 +43,7 @@ def run_therm(opencl, forcing, area, emissivity, thickness_m, power=None):
     span = np.zeros(1, SPAN)
     span[0] = (1, 0, len(forcing), 0, 1.0, STEP_S, 0, len(forcing))
     out = np.empty((len(forcing), 1), np.float32)
-    opencl.run("thermal", (1,), span=span, facets=facets, materials=materials,
+    opencl.run("thermal", (1,), span=span, thesis=1, facets=facets, materials=materials,
                load={"forcing": forcing, "power": power, "power_materials": power is not None},
                temperature_k=out)
     return out[:, 0].astype(float) - 273.15
