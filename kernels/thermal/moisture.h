@@ -14,6 +14,8 @@
 
 #define MOISTURE_AIR_J_KG_K 1005.0f
 #define MOISTURE_FILM_KG_M2 0.3f /* of dew, at most */
+/* Share of the pressure that vapour has at most: what is hotter is past all that evaporates. */
+#define MOISTURE_BOILING 0.9f
 #define MOISTURE_SUBLIMATION_J_KG 2.83e6f
 
 /* The air at an instant, the same for all lanes. */
@@ -66,7 +68,8 @@ static inline moisture_excess moisture_over(moisture_air air, lanes face_k)
     const lanes water = 17.62f, ice = 22.46f, water_c = 243.12f, ice_c = 272.62f;
     const lanes slope = freezes ? ice : water, pole_c = freezes ? ice_c : water_c;
     const lanes celsius = face_k - ZERO_CELSIUS_K, reach = celsius + pole_c;
-    const lanes vapour_pa = 611.2f * exp(slope * celsius / reach);
+    const lanes most_pa = MOISTURE_BOILING * air.pressure_pa;
+    const lanes vapour_pa = fmin(611.2f * exp(slope * celsius / reach), most_pa);
     const lanes rest_pa = air.pressure_pa - 0.378f * vapour_pa;
     const lanes humidity = 0.622f * vapour_pa / rest_pa;
     moisture_excess over;

@@ -33,20 +33,21 @@ def nights(steps, air_c, humidity, h=12.0, sky_w_m2=0.0, **values):
     return forcing
 
 
-def run_therm(opencl, forcing, area, emissivity, thickness_m, power=None):
-    facets, materials = np.zeros(1, FACET), np.zeros(1, MATERIAL)
-    facets["normal"], facets["thickness_m"] = (0, 0, 1), thickness_m
+def run_therm(opencl, forcing, area, emissivity, thickness_m, power=None, own_w_m2=(0,)):
+    """Of the last of so many facets as have a power of their own."""
+    facets, materials = np.zeros(len(own_w_m2), FACET), np.zeros(1, MATERIAL)
+    facets["normal"], facets["thickness_m"], facets["power_w_m2"] = (0, 0, 1), thickness_m, own_w_m2
     for name, value in zip(("conductivity_w_m_k", "density_kg_m3", "specific_heat_j_kg_k",
                             "thermal_emissivity", "exposed_area"),
                            (0.689, 2114.0, 920.0, emissivity, area)):
         materials[name] = value
     span = np.zeros(1, SPAN)
-    span[0] = (1, 0, len(forcing), 0, 1.0, STEP_S, 0, len(forcing))
-    out = np.empty((len(forcing), 1), np.float32)
+    span[0] = (len(facets), 0, len(forcing), 0, 1.0, STEP_S, 0, len(forcing))
+    out = np.empty((len(forcing), len(facets)), np.float32)
     opencl.run("thermal", (1,), span=span, thesis=1, facets=facets, materials=materials,
                load={"forcing": forcing, "power": power, "power_materials": power is not None},
                temperature_k=out)
-    return out[:, 0].astype(float) - 273.15
+    return out[:, -1].astype(float) - 273.15
 
 
 def run_layered(opencl, forcing, emissivity, thickness_m, power=None, **values):
@@ -142,6 +143,18 @@ def test_what_dew_frees_by_night_it_takes_in_the_morning(run, kind):
     lost = 0.9 * (SIGMA * (found + 273.15) ** 4 - 290.0) + 8.0 * (found - 15.0)
     assert (found < 10.5).sum() > 20
     assert lost.mean() == pytest.approx(power[-96:].mean(), rel=5e-3)  # a step that crosses the dew point
+
+
+@pytest.mark.parametrize("area", [0.5, -0.5])
+@pytest.mark.parametrize("power_w_m2", [0.0, 900.0, 4000.0])
+def test_an_exhaust_beside_a_wet_sheet_is_as_warm_as_alone(opencl, area, power_w_m2):
+    """Magnus' vapour pressure is beyond the air's own above 100 C."""
+    forcing = nights(200, 15.0, float(saturated(14.2)), 6.0, 312.0)
+
+    alone, beside = (run_therm(opencl, forcing, area, 0.9, 0.003, own_w_m2=own)
+                     for own in ((power_w_m2,), (0.0, power_w_m2)))
+
+    assert (alone == beside).all()
 
 
 def test_dew_forms_on_grass_in_spite_of_its_resistance(opencl):
