@@ -115,11 +115,12 @@ typedef struct forcing_record {
     float rain_temperature_k;
     float specific_humidity; /* of the air, kg of vapour per kg */
     float pressure_pa;
-    uint convection_law; /* CONVECTION_..., see convection.h, as for the next two */
-    float buoyancy, roughness;
-    uint unused;
+    uint convection_law; /* CONVECTION_..., see convection.h, as for the next three */
+    float buoyancy, roughness, plate_w_m2_k;
+    float wet_below_k; /* what is colder may get wet of the air's vapour; 0: nothing does */
+    uint unused[3];
 } forcing_record;
-RECORD_SIZE(forcing_record, 64);
+RECORD_SIZE(forcing_record, 80);
 
 /* Which temperatures to compute: see thermal.cl. Row r holds the temperature at step first_step + r - 1 + weight, linear between
  * steps; at step 0 the weight is 1. */

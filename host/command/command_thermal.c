@@ -81,6 +81,7 @@ static int read_arguments(int argc, char **argv, thermal_request *out)
          "therm (the default), or layered: unequal nodes, McAdams' convection, air behind if "
          "abs(exposed area) is above 0.75",
          .index = &out->model, .word = models, .word_count = 2},
+        command_mode_option(&out->laws),
         command_sky_option(&out->laws),
         command_convection_option(&out->laws),
         command_roughness_option(&out->laws),
@@ -101,6 +102,7 @@ static int read_arguments(int argc, char **argv, thermal_request *out)
     const int code = option_table_read(&table, argc, argv, NULL);
 
     out->place = command_day_site(&out->day);
+    if (out->laws.mode < 0) out->laws.mode = out->is_sensitivity ? COMMAND_THESIS : COMMAND_EXACT;
     return code == OPTION_TABLE_DONE ? check_use(&table, out) : code;
 }
 
@@ -181,6 +183,7 @@ static status run(const thermal_request *request)
     record = command_material_record(named);
     TRY(weather_history_read(&w, request->weather, &request->place));
     weather_place_check_day(w, &request->place, request->weather);
+    forcing_check(w, &matter.laws, request->weather);
     temperature_k = malloc(w->count * sizeof *temperature_k);
     NEED(temperature_k, STATUS_MEMORY, "no memory for %zu temperatures", w->count);
     TRY(compute(&facet, &matter, w, &request->place, temperature_k));
@@ -215,7 +218,7 @@ static status run_sensitivity(const thermal_request *r)
 
 int command_thermal(int argc, char **argv)
 {
-    thermal_request request = {.runs = 100, .seed = 1, .laws.convection = -1};
+    thermal_request request = {.runs = 100, .seed = 1, .laws = {.convection = -1, .mode = -1}};
     const int code = read_arguments(argc, argv, &request);
 
     if (code != OPTION_TABLE_DONE) return code;

@@ -66,6 +66,7 @@ forcing_laws command_laws_of(const command_laws *laws)
     return (forcing_laws){.sky = (forcing_sky)laws->sky,
                           .convection = (forcing_convection)(laws->convection + 1),
                           .diffuse = (forcing_diffuse)laws->diffuse,
+                          .thesis = laws->mode == COMMAND_THESIS,
                           .roughness_length_m = laws->roughness_length_m,
                           .wind_height_m = laws->wind_height_m};
 }
@@ -101,6 +102,19 @@ option command_offset_option(command_day *day)
                     .is_required = true};
 }
 
+option command_mode_option(command_laws *laws)
+{
+    static const char *const modes[] = {"exact", "thesis"};
+
+    return (option){.name = "mode",
+                    .value = "MODE",
+                    .help = "exact, or thesis: as THERM is reconstructed, without what came later "
+                            "(default exact, with --sensitivity thesis)",
+                    .index = &laws->mode,
+                    .word = modes,
+                    .word_count = 2};
+}
+
 option command_sky_option(command_laws *laws)
 {
     return (option){.name = "sky-longwave",
@@ -126,7 +140,7 @@ option command_roughness_option(command_laws *laws)
 {
     return (option){.name = "roughness-length-m",
                     .value = "X",
-                    .help = "of similarity (default 0.001)",
+                    .help = "of the ground, for similarity and wind heights (default 0.001)",
                     .number = &laws->roughness_length_m,
                     .low = FORCING_ROUGHNESS_LOW_M,
                     .high = FORCING_ROUGHNESS_HIGH_M};
@@ -136,7 +150,7 @@ option command_wind_height_option(command_laws *laws)
 {
     return (option){.name = "wind-height-m",
                     .value = "X",
-                    .help = "of similarity (default 10)",
+                    .help = "where the weather's wind blows (default 10)",
                     .number = &laws->wind_height_m,
                     .low = FORCING_HEIGHT_LOW_M,
                     .high = FORCING_HEIGHT_HIGH_M};

@@ -22,14 +22,18 @@ option command_site_option(site *place); /* --site LAT,LON, required */
 option command_date_option(command_day *day);
 option command_offset_option(command_day *day);
 
+enum { COMMAND_EXACT, COMMAND_THESIS };
+
 /* Laws, by the indices of their names; a convection of -1 is the model's own. */
 typedef struct command_laws {
     int sky, convection, diffuse;
+    int mode; /* COMMAND_EXACT, COMMAND_THESIS */
     double roughness_length_m, wind_height_m;
 } command_laws;
 
 forcing_laws command_laws_of(const command_laws *laws);
 
+option command_mode_option(command_laws *laws);
 option command_sky_option(command_laws *laws);
 option command_convection_option(command_laws *laws);
 option command_roughness_option(command_laws *laws);

@@ -153,6 +153,13 @@ static void read_laws(scene_table *t, forcing_laws *out)
     out->diffuse = (forcing_diffuse)diffuse;
 }
 
+static void check_weather(const scene_reader *reader, const char *name)
+{
+    const scene *s = reader->s;
+
+    if (s->history) forcing_check(s->history, &s->laws, name);
+}
+
 void scene_read_weather(scene_reader *reader)
 {
     const toml_node *node = toml_node_get(reader->root, "weather");
@@ -163,8 +170,12 @@ void scene_read_weather(scene_reader *reader)
 
     if (!t.node) return;
     read_laws(&t, &reader->s->laws);
+    reader->s->laws.thesis = reader->s->thesis;
     if (scene_table_has(&t, "history")) {
-        if (scene_table_file(&t, "history", &path)) read_history(reader, path);
+        if (scene_table_file(&t, "history", &path)) {
+            read_history(reader, path);
+            check_weather(reader, path);
+        }
         scene_table_close(&t);
         return;
     }
@@ -173,6 +184,7 @@ void scene_read_weather(scene_reader *reader)
     if (reader->failure_count == failures)
         scene_took_at(reader, node,
                       weather_synthesise(&reader->s->history, &summary, &reader->s->place));
+    check_weather(reader, "weather");
 }
 
 static void read_uniform(scene_reader *reader, const toml_node *node)

@@ -80,6 +80,7 @@ status thermal_open(thermal **out, device *dev, const thermal_matter *matter, co
     NEED(t, STATUS_MEMORY, "no memory for temperatures");
     *t = (thermal){
         .dev = dev,
+        .thesis = matter->laws.thesis,
         .step_count = w->count,
         .step_s = w->interval_s,
         .time_h = (place->time_s - weather_origin_s(w, place)) / 3600.0 - w->record[0].time_h,
@@ -144,7 +145,8 @@ load_tables thermal_loads(const thermal *t, uint_buffer lit)
 
 device_shape thermal_shape(const thermal *t, size_t facet_count)
 {
-    const double step_of_facet_s = t->layered ? 7e-7 : 5e-8;
+    /* Outside thesis mode the start takes some days of its own. */
+    const double step_of_facet_s = t->layered ? 7e-7 : t->thesis ? 5e-8 : 2e-7;
     const uint32_t at_once = device_describe(t->dev)->ray_lanes;
     device_shape shape = device_ray_shape(t->dev, facet_count, 1);
 
@@ -195,6 +197,7 @@ static status run_thermal(const thermal *t, const batch *b, thermal_span span, u
     TRY(device_allocate(t->dev, &facets, b->count, b->facet));
     TRY(thermal_run(t->dev, thermal_shape(t, b->count),
                     &(thermal_args){.span = span,
+                                    .thesis = t->thesis,
                                     .facets = facets,
                                     .materials = t->materials,
                                     .load = thermal_loads(t, lit),

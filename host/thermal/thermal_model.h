@@ -9,6 +9,7 @@ struct thermal {
     material_record *material;
     layered_matter *layered; /* NULL: as THERM does it */
     double mean_air_k;
+    bool thesis; /* THERM as it is reconstructed */
     material_record_buffer materials;
     forcing_record_buffer forcing;
     float_buffer power;       /* shape (steps, power_materials) */

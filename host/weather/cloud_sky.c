@@ -4,15 +4,14 @@
 
 #define GROUND_ALBEDO 0.2
 
-enum { HIGH, MIDDLE, LOW, LAYERS, FOG = LAYERS, AIRS };
+enum { HIGH, MIDDLE, LOW, LAYERS };
 enum { THIN_CIRRUS, THICK_CIRRUS, MIDDLE_CLOUD, STRATUS, CLOUDS };
 enum {
     CIRRUS_TYPE = 1,
     CIRROSTRATUS_TYPE,
     ALTOCUMULUS_TYPE,
     ALTOSTRATUS_TYPE,
-    NIMBOSTRATUS_TYPE = 7,
-    FOG_TYPE
+    NIMBOSTRATUS_TYPE = 7
 };
 
 /* Cubics in the cosine of the sun's zenith angle, constants first. */
@@ -20,11 +19,10 @@ typedef struct cubics {
     double reflected[4], passed[4];
 } cubics;
 
-static const cubics airs[AIRS] = {
+static const cubics airs[LAYERS] = {
     [HIGH] = {{0.12395, -0.34765, 0.39478, -0.14627}, {0.76977, 0.49407, -0.44647, 0.11558}},
     [MIDDLE] = {{0.15325, -0.39620, 0.42095, -0.14200}, {0.69318, 0.68227, -0.64289, 0.17910}},
     [LOW] = {{0.15946, -0.42185, 0.48800, -0.18492}, {0.68679, 0.71012, -0.71463, 0.22339}},
-    [FOG] = {{0.27436, -0.43132, 0.26920, -0.00447}, {0.55336, 0.61511, -0.29816, -0.06663}},
 };
 
 static const cubics clouds[CLOUDS] = {
@@ -85,8 +83,8 @@ static void set_layers(sky_layer layer[LAYERS], int type, double cover, double m
     if (type == CIRROSTRATUS_TYPE) put_cloud(&layer[HIGH], THICK_CIRRUS, cover, m);
     if (type == ALTOCUMULUS_TYPE || type == ALTOSTRATUS_TYPE || type == NIMBOSTRATUS_TYPE)
         put_cloud(&layer[MIDDLE], MIDDLE_CLOUD, cover, m);
-    if (type > ALTOSTRATUS_TYPE && type < FOG_TYPE) put_cloud(&layer[LOW], STRATUS, cover, m);
-    if (type == FOG_TYPE) layer[LOW] = mixed(layer[LOW], layer_of(&airs[FOG], m), cover);
+    /* assumed: fog is stratus on the ground. */
+    if (type > ALTOSTRATUS_TYPE) put_cloud(&layer[LOW], STRATUS, cover, m);
 }
 
 static double beam_through(const sky_layer layer[LAYERS])

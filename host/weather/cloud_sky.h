@@ -8,8 +8,8 @@
 
 /* Sets the shares of the clear sky's irradiance that are left, above a ground of albedo 0.2.
  *   cloud_type   as weather_record has it, above 0. High clouds: cirrus thin, cirrostratus thick;
- *                nimbostratus in two layers, as altostratus above stratus; fog thickens the lowest
- *                layer (assumed)
+ *                nimbostratus in two layers, as altostratus above stratus; fog as stratus, for
+ *                Shapiro's own lets 0.8 of the beam through (assumed)
  *   cover        0..1
  *   out_beam     of the direct beam
  *   out_level    of all that falls on a level plane */

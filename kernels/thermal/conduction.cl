@@ -41,7 +41,7 @@ static void go_alone(const patch_run *p, uint first, const sub_step *s)
     const layered_elimination elimination = group->elimination;
     const thermal_load load = load_of(s, group);
     layered_state state = group->state;
-    const layered_front front = layered_front_of(&state, &body, &load, s->air);
+    const layered_front front = layered_front_of(&state, &body, &load, s->air, s->step_s);
     const lanes now_k = layered_lateral_k(&state, &body);
 
     layered_step(&state, &body, &elimination, &load, s->air, (lanes)0.0f, s->step_s);

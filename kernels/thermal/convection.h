@@ -1,8 +1,13 @@
 /* Convection: the heat that air takes from a surface where it depends on how warm the surface is.
  *   TARP         G. Walton, NBSSIR 83-2655 (1983), as the EnergyPlus engineering reference has it:
  *                what the wind takes, and what rises by itself
+ *   blended      forced and free convection as (forced^3 + free^3)^(1/3): S. Churchill, AIChE Journal 23
+ *                (1977) 10; free as TARP has it
  *   similarity   J.-F. Louis, Boundary-Layer Meteorology 17 (1979) 187: the logarithmic wind over a
- *                roughness length times a function of the bulk Richardson number */
+ *                roughness length times a function of the bulk Richardson number. In stable air that
+ *                function ends all exchange, as over endless level ground; a facet keeps what TARP's air
+ *                takes from a plate (assumed), and at least the 2 W m-2 K-1 of still air that models of
+ *                snow give it: R. Jordan, CRREL Special Report 91-16 (1991) */
 #ifndef CONVECTION_H
 #define CONVECTION_H
 
@@ -13,6 +18,9 @@
 #define CONVECTION_WIND 0u /* does not depend on the surface */
 #define CONVECTION_TARP 1u
 #define CONVECTION_SIMILARITY 2u
+#define CONVECTION_BLENDED 3u
+
+#define CONVECTION_LEAST_W_M2_K 2.0f
 
 /* The air at an instant. */
 typedef struct convection_air {
@@ -21,35 +29,46 @@ typedef struct convection_air {
     float wind_w_m2_k; /* what the wind takes; of similarity where both are equally warm */
     float buoyancy;    /* similarity: Richardson number per relative rise of the surface, above 0 */
     float roughness;   /* similarity: Louis' c */
+    float plate_w_m2_k; /* similarity: what the wind takes from a plate; 0: no floor */
 } convection_air;
 
-/* Of a face that looks up by `up`, the third component of its normal: W m-2 K-1. */
-static inline lanes convection_tarp(convection_air air, lanes up, lanes face_k)
+/* What rises by itself from a face that looks up by `up`, the third component of its normal: W m-2 K-1. */
+static inline lanes convection_free(convection_air air, lanes up, lanes face_k)
 {
     const lanes none = 0.0f, rise_k = face_k - air.temperature_k, tilt = fabs(up);
     const lanes root = cbrt(fabs(rise_k));
-    const lanes risen =
-        rise_k * up > none ? 9.482f * root / (7.238f - tilt) : 1.810f * root / (1.382f + tilt);
 
-    return air.wind_w_m2_k + risen;
+    return rise_k * up > none ? 9.482f * root / (7.238f - tilt) : 1.810f * root / (1.382f + tilt);
 }
 
-static inline lanes convection_similarity(convection_air air, lanes face_k)
+static inline lanes convection_blended(convection_air air, lanes up, lanes face_k)
+{
+    const lanes wind = air.wind_w_m2_k, risen = convection_free(air, up, face_k);
+
+    return cbrt(wind * wind * wind + risen * risen * risen);
+}
+
+static inline lanes convection_similarity(convection_air air, lanes up, lanes face_k)
 {
     const lanes none = 0.0f;
     const lanes relative = (face_k - air.temperature_k) / air.temperature_k;
     const lanes richardson = fabs(relative) * air.buoyancy;
     const lanes damped = 1.0f + 4.7f * richardson;
     const lanes rises = 1.0f + 9.4f * richardson / (1.0f + air.roughness * sqrt(richardson));
+    const lanes least = CONVECTION_LEAST_W_M2_K;
+    const lanes alone = air.wind_w_m2_k * (relative > none ? rises : 1.0f / (damped * damped));
+    const lanes plate = air.plate_w_m2_k + convection_free(air, up, face_k);
+    const lanes kept = relative > none ? alone : fmax(alone, plate);
 
-    return air.wind_w_m2_k * (relative > none ? rises : 1.0f / (damped * damped));
+    return air.plate_w_m2_k > 0.0f ? fmax(kept, least) : alone;
 }
 
 /* Of any law. */
 static inline lanes convection_of(convection_air air, lanes up, lanes face_k)
 {
-    if (air.law == CONVECTION_TARP) return convection_tarp(air, up, face_k);
-    if (air.law == CONVECTION_SIMILARITY) return convection_similarity(air, face_k);
+    if (air.law == CONVECTION_TARP) return air.wind_w_m2_k + convection_free(air, up, face_k);
+    if (air.law == CONVECTION_BLENDED) return convection_blended(air, up, face_k);
+    if (air.law == CONVECTION_SIMILARITY) return convection_similarity(air, up, face_k);
     return (lanes)air.wind_w_m2_k;
 }
 

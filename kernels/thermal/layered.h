@@ -3,7 +3,7 @@
  *   surroundings, sky, rain   as thermal.h has them; the whole front is exposed; or longwave as it
  *                             comes from sky and facets
  *   evaporation               rho L (q*(Ts) - qa) / (ra + rs), ra = rho cp / h; none from dry matter
- *   film                      rain that stays, up to a limit, evaporates without rs
+ *   film                      rain that stays, up to a limit, and dew (moisture.h) evaporate without rs
  *   along the facet           heat from its neighbours is spread over the nodes of its own material by
  *                             their thickness
  *   start                     the first day over and over until no node moves by 0.01 K */
@@ -63,7 +63,7 @@ typedef struct layered_state {
 
 /* What the air does to a wet surface: the same for all lanes. */
 typedef struct layered_air {
-    float humidity, pressure_pa, density_kg_m3;
+    moisture_air moist;
     convection_air convection;
     float is_day;
     float rain_kg_m2_s;
@@ -101,45 +101,53 @@ static inline void layered_set_body(layered_body *body, int lane, const layered_
 
 static inline layered_air layered_air_of(forcing_record now)
 {
-    const float temperatures = now.air_temperature_k * (1.0f + 0.608f * now.specific_humidity);
     layered_air air;
 
-    air.humidity = now.specific_humidity;
-    air.pressure_pa = now.pressure_pa;
-    air.density_kg_m3 = now.pressure_pa / (287.05f * temperatures);
+    air.moist = moisture_air_of(now);
     air.convection = thermal_air_of(now);
     air.is_day = now.sun[2] > 0.0f ? 1.0f : 0.0f;
     air.rain_kg_m2_s = 1000.0f * now.rain_w_m2_k / LAYERED_RAIN_J_M3_K;
     return air;
 }
 
-/* Heat that evaporation takes, and how much more per kelvin; Magnus as weather.c has it. */
-static inline thermal_flux layered_latent(const layered_body *body, layered_air air, lanes face_k,
-                                          lanes film_kg_m2)
+/* The air's resistance, s/m. */
+static inline lanes layered_resistance(const layered_body *body, layered_air air, lanes face_k)
 {
-    const lanes none = 0.0f, one = 1.0f;
+    const float heat_j_m3_k = air.moist.density_kg_m3 * MOISTURE_AIR_J_KG_K, least = 1e-3f;
+
+    if (air.convection.law != CONVECTION_WIND)
+        return heat_j_m3_k /
+               fmax(convection_of(air.convection, body->face.normal[2], face_k), (lanes)least);
+    return (lanes)(heat_j_m3_k / fmax(air.convection.wind_w_m2_k, least));
+}
+
+/* Heat that evaporation takes, and how much more per kelvin. Dew and a film know no resistance but the
+ * air's; what a film does not hold for a step passes through the surface's own. */
+static inline moisture_flux layered_latent(const layered_body *body, layered_air air, lanes face_k,
+                                           lanes film_kg_m2, float step_s)
+{
+    const lanes none = 0.0f, one = 1.0f, below_k = air.moist.wet_below_k;
     const lanes stated = air.is_day > 0.0f ? body->day_s_m : body->night_s_m;
     const lanes surface_s_m = film_kg_m2 > none ? none : stated;
-    thermal_flux latent = {none, none};
+    moisture_flux latent = {none, none};
 
-    if (!lanes_any(surface_s_m >= none)) return latent;
-    const lanes celsius = face_k - ZERO_CELSIUS_K, reach = celsius + 243.12f;
-    const lanes vapour_pa = 611.2f * exp(17.62f * celsius / reach);
-    const lanes rest_pa = air.pressure_pa - 0.378f * vapour_pa;
-    const lanes humidity = 0.622f * vapour_pa / rest_pa;
-    const lanes slope = humidity * (17.62f * 243.12f) / (reach * reach) * air.pressure_pa / rest_pa;
+    if (!lanes_any(surface_s_m >= none || face_k < below_k)) return latent;
+    const moisture_excess over = moisture_over(air.moist, face_k);
+    const lanes heat = moisture_heat(air.moist, face_k);
+    const lanes air_s_m = layered_resistance(body, air, face_k);
     const lanes evaporates = surface_s_m < none ? none : one;
-    /* ra = rho cp / h, in s/m */
-    const float heat_j_m3_k = air.density_kg_m3 * 1005.0f, least = 1e-3f;
-    lanes air_s_m = (lanes)(heat_j_m3_k / fmax(air.convection.wind_w_m2_k, least));
-    if (air.convection.law != CONVECTION_WIND)
-        air_s_m = heat_j_m3_k /
-                  fmax(convection_of(air.convection, body->face.normal[2], face_k), (lanes)least);
-    const lanes vaporisation = 2.501e6f - 2361.0f * celsius; /* J/kg */
-    const lanes fraction = evaporates * air.density_kg_m3 * vaporisation / (air_s_m + surface_s_m);
-
-    latent.w_m2 = fraction * (humidity - air.humidity);
-    latent.w_m2_k = fraction * slope;
+    const lanes fraction = evaporates * air.moist.density_kg_m3 * heat / (air_s_m + surface_s_m);
+    latent.w_m2 = fraction * over.humidity;
+    latent.w_m2_k = fraction * over.per_k;
+    if (air.moist.wet_below_k > 0.0f) {
+        const lanes bare = air.moist.density_kg_m3 * heat / air_s_m;
+        const lanes behind = stated < none ? none : air_s_m / (air_s_m + stated);
+        const moisture_flux free = {bare * over.humidity, bare * over.per_k};
+        const moisture_flux film = moisture_from_film(free, film_kg_m2, heat, step_s);
+        const lanes_mask passes = free.w_m2 > none && behind * free.w_m2 > film.w_m2;
+        latent.w_m2 = passes ? behind * free.w_m2 : film.w_m2;
+        latent.w_m2_k = passes ? behind * free.w_m2_k : film.w_m2_k;
+    }
     return latent;
 }
 
@@ -177,18 +185,20 @@ static inline layered_elimination layered_eliminate(const layered_body *body, la
 
 /* What the front takes in, linear about its temperature at the start of a step. */
 typedef struct layered_front {
-    thermal_flux all, latent;
+    thermal_flux all;
+    moisture_flux latent;
     lanes way;      /* 1 / what the face gives to node 0 and outwards, per kelvin */
     lanes fraction; /* of what reaches the face that goes on to node 0 */
 } layered_front;
 
 static inline layered_front layered_front_of(const layered_state *s, const layered_body *body,
-                                             const thermal_load *load, layered_air air)
+                                             const thermal_load *load, layered_air air,
+                                             float step_s)
 {
     layered_front front;
 
     front.all = thermal_front_flux(&body->face, load, s->front_k);
-    front.latent = layered_latent(body, air, s->front_k, s->film_kg_m2);
+    front.latent = layered_latent(body, air, s->front_k, s->film_kg_m2, step_s);
     front.all.w_m2 -= front.latent.w_m2;
     front.all.w_m2_k += front.latent.w_m2_k;
     front.way = 1.0f / (body->conductance[0] + front.all.w_m2_k);
@@ -196,19 +206,26 @@ static inline layered_front layered_front_of(const layered_state *s, const layer
     return front;
 }
 
+/* What rain adds up to its own limit, and vapour takes or leaves. */
 static inline void layered_step_film(layered_state *s, const layered_body *body,
                                      const layered_front *front, lanes old_front_k, layered_air air,
                                      float step_s)
 {
     const lanes none = 0.0f;
+    const lanes_mask wet = s->film_kg_m2 > none || front->latent.w_m2 < none;
+    const lanes rain = step_s * air.rain_kg_m2_s * fmax(body->face.normal[2], none);
 
-    if (!(air.rain_kg_m2_s > 0.0f) && !lanes_any(s->film_kg_m2 > none)) return;
+    if (!(air.rain_kg_m2_s > 0.0f) && !lanes_any(wet)) return;
     const lanes lost_w_m2 = front->latent.w_m2 + front->latent.w_m2_k * (s->front_k - old_front_k);
-    const lanes vaporisation = 2.501e6f - 2361.0f * (old_front_k - ZERO_CELSIUS_K);
-    const lanes film = s->film_kg_m2 +
-                       step_s * air.rain_kg_m2_s * fmax(body->face.normal[2], none) -
-                       (s->film_kg_m2 > none ? step_s * lost_w_m2 / vaporisation : none);
-
+    if (air.moist.wet_below_k > 0.0f) {
+        const lanes room = fmax(body->film_limit - s->film_kg_m2, none);
+        const lanes film = s->film_kg_m2 + fmin(rain, room);
+        s->film_kg_m2 = moisture_film(air.moist, old_front_k, film, wet ? lost_w_m2 : none, step_s);
+        return;
+    }
+    const lanes film =
+        s->film_kg_m2 + rain -
+        (s->film_kg_m2 > none ? step_s * lost_w_m2 / moisture_heat(air.moist, old_front_k) : none);
     s->film_kg_m2 = fmin(fmax(film, none), body->film_limit);
 }
 
@@ -220,7 +237,7 @@ static inline void layered_step(layered_state *s, const layered_body *body,
 {
     const int last = LAYERED_NODES - 1;
     const lanes behind = body->conductance[LAYERED_NODES], before = body->conductance[0];
-    const layered_front front = layered_front_of(s, body, load, air);
+    const layered_front front = layered_front_of(s, body, load, air, step_s);
     const thermal_flux back = thermal_back_flux(&body->face, load, s->back_k);
     const lanes none = 0.0f, old_front_k = s->front_k;
     const lanes from_back = body->is_stated != none

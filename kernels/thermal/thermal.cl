@@ -1,5 +1,4 @@
-#include "kernels/thermal/facet_switches.h"
-#include "kernels/thermal/thermal.h"
+#include "kernels/thermal/thermal_history.h"
 
 static void set_bodies(thermal_body *body, lanes *stated_k, uint *material, thermal_span span,
                        uint first, global const facet_record *facets,
@@ -18,32 +17,28 @@ static void set_bodies(thermal_body *body, lanes *stated_k, uint *material, ther
 
 /* Launch: (facet_count / LANES_WIDTH, rounded up).
  * facets: shape (facet_count), thickness above 0 and a material of `materials` unless its
- * temperature is stated; temperature_k: (row_count, facet_count). */
-SHARED_BODY kernel void thermal(const thermal_span span, global const facet_record *facets,
+ * temperature is stated; thesis: 1 for equal nodes and a start in balance with the first record;
+ * temperature_k: (row_count, facet_count). */
+SHARED_BODY kernel void thermal(const thermal_span span, const uint thesis,
+                                global const facet_record *facets,
                                 global const material_record *materials, TABLES(LOAD_TABLES),
                                 global float *temperature_k)
 {
     const uint first = get_global_id(0) * LANES_WIDTH;
     if (first >= span.facet_count) return;
 
-    const load_tables loads = TABLES_GIVEN(LOAD_TABLES);
+    thermal_world w = {.span = span, .first = first, .loads = TABLES_GIVEN(LOAD_TABLES)};
     thermal_body body;
     lanes stated_k;
-    uint material[LANES_WIDTH];
-    set_bodies(&body, &stated_k, material, span, first, facets, materials);
-    thermal_load before =
-        thermal_load_of(&body, loads.forcing[0], sunlit_at(&loads, span, first, 0));
-    before.direct_w_m2 += power_at(&loads, material, 0);
-    thermal_state state = thermal_start(&body, &before);
+    set_bodies(&body, &stated_k, w.material, span, first, facets, materials);
+    thermal_way way = thermal_way_of(&w, &body, thesis ? 1.0f : THERMAL_NODE_RATIO);
+    thermal_state state = thermal_start(&body, &way.after, &way.nodes);
+    if (!thesis) thermal_find_start(&w, &body, &way, &state);
     lanes earlier_k = state.front_k;
     for (uint step = 0; step < span.first_step + span.row_count; step++) {
         if (step > 0) {
-            thermal_load after =
-                thermal_load_of(&body, loads.forcing[step], sunlit_at(&loads, span, first, step));
-            after.direct_w_m2 += power_at(&loads, material, step);
             earlier_k = state.front_k;
-            thermal_advance(&state, &body, &before, &after, span.step_s);
-            before = after;
+            thermal_go(&w, &body, &state, &way, step);
         }
         if (step < span.first_step) continue;
         const lanes now_k = earlier_k + span.weight * (state.front_k - earlier_k);

@@ -5,7 +5,10 @@
  *                    at air temperature; A >= 0 one node, A < 0 a slab of 8
  *   surroundings     below the horizon: air temperature, reflectance 0.15; the sky's fraction of the
  *                    view is (1 + cos slope) / 2
- *   start            steady balance with the first record
+ *   start            steady balance with the first record; outside thesis mode the first day over and
+ *                    over from there (thermal_history.h)
+ *   nodes            equal; outside thesis mode each half as thick again as the one before it
+ *   dew              outside thesis mode, on the front alone (moisture.h)
  * assumed: all of these; see docs/departures.md.
  * LANES_WIDTH facets go side by side; what they do not have in common is chosen lane by lane. */
 #ifndef THERMAL_KERNEL_H
@@ -16,10 +19,42 @@
 #include "kernels/lanes.h"
 #include "kernels/records.h"
 #include "kernels/thermal/convection.h"
+#include "kernels/thermal/moisture.h"
 
 #define THERMAL_NODES 8
 #define THERMAL_SUB_STEP_S 300.0f /* at most */
 #define THERMAL_GROUND_REFLECTANCE 0.15f
+
+#define THERMAL_NODE_RATIO 1.5f /* outside thesis mode */
+
+/* How slabs are cut into nodes, of a thickness and a conductance of 1. */
+typedef struct thermal_nodes {
+    float fraction[THERMAL_NODES]; /* of the thickness */
+    float centre[THERMAL_NODES];
+    float way[THERMAL_NODES +
+              1]; /* conductances: face to node 0, node j - 1 to j, last to the back */
+    float onward[THERMAL_NODES]; /* way[j + 1] / way[j] */
+} thermal_nodes;
+
+/* Each node `ratio` times as thick as the one before it; exact for 1. */
+static inline thermal_nodes thermal_nodes_of(float ratio)
+{
+    thermal_nodes n;
+    float all = 0.0f, part = 1.0f, edge = 0.0f, before = 0.0f;
+
+    for (int j = 0; j < THERMAL_NODES; j++, part *= ratio) all += part;
+    part = 1.0f / all;
+    for (int j = 0; j < THERMAL_NODES; j++, part *= ratio) {
+        n.fraction[j] = part;
+        n.centre[j] = edge + 0.5f * part;
+        n.way[j] = 1.0f / (n.centre[j] - before);
+        before = n.centre[j];
+        edge += part;
+    }
+    n.way[THERMAL_NODES] = 1.0f / (1.0f - before);
+    for (int j = 0; j < THERMAL_NODES; j++) n.onward[j] = n.way[j + 1] / n.way[j];
+    return n;
+}
 
 /* What does not change with time. */
 typedef struct thermal_body {
@@ -47,6 +82,7 @@ typedef struct thermal_load {
 typedef struct thermal_state {
     lanes front_k, back_k;
     lanes node_k[THERMAL_NODES];
+    lanes film_kg_m2; /* of dew on the front */
 } thermal_state;
 
 /* A flux into a face and how much it falls per kelvin that the face gets warmer. */
@@ -102,6 +138,7 @@ static inline convection_air thermal_air_of(forcing_record now)
     air.wind_w_m2_k = now.convection_w_m2_k;
     air.buoyancy = now.buoyancy;
     air.roughness = now.roughness;
+    air.plate_w_m2_k = now.plate_w_m2_k;
     return air;
 }
 
@@ -175,6 +212,32 @@ static inline thermal_flux thermal_front_flux(const thermal_body *body, const th
     return flux;
 }
 
+/* The same with dew, which is the part of it that `out_dew` tells. */
+static inline thermal_flux thermal_wet_flux(const thermal_body *body, const thermal_load *load,
+                                            moisture_air air, const thermal_state *state,
+                                            float step_s, moisture_flux *out_dew)
+{
+    const lanes convection_w_m2_k =
+        thermal_convection(load, body->front, body->normal[2], state->front_k);
+    thermal_flux flux = thermal_front_flux(body, load, state->front_k);
+
+    *out_dew = moisture_of_dew(air, convection_w_m2_k, state->front_k, state->film_kg_m2, step_s);
+    if (air.wet_below_k > 0.0f) {
+        flux.w_m2 -= out_dew->w_m2;
+        flux.w_m2_k += out_dew->w_m2_k;
+    }
+    return flux;
+}
+
+/* The film after a step in which the front was `rise_k` warmer in the mean than it began. */
+static inline void thermal_step_film(thermal_state *state, moisture_air air, lanes began_k,
+                                     const moisture_flux *dew, lanes rise_k, float step_s)
+{
+    if (air.wet_below_k > 0.0f)
+        state->film_kg_m2 = moisture_film(air, began_k, state->film_kg_m2,
+                                          dew->w_m2 + dew->w_m2_k * rise_k, step_s);
+}
+
 static inline thermal_flux thermal_back_flux(const thermal_body *body, const thermal_load *load,
                                              lanes back_k)
 {
@@ -190,12 +253,14 @@ static inline thermal_flux thermal_back_flux(const thermal_body *body, const the
 
 /* Steady balance by Newton's method: both faces of a slab, or one temperature. Starts at the
  * air temperature and stays there where nothing is exchanged. */
-static inline thermal_state thermal_start(const thermal_body *body, const thermal_load *load)
+static inline thermal_state thermal_start(const thermal_body *body, const thermal_load *load,
+                                          const thermal_nodes *nodes)
 {
     const lanes none = 0.0f, one = 1.0f, through = body->conductance_w_m2_k;
     thermal_state state;
 
     state.front_k = state.back_k = (lanes)load->air_k;
+    state.film_kg_m2 = none;
     for (int i = 0; i < 24; i++) {
         const thermal_flux front = thermal_front_flux(body, load, state.front_k);
         const thermal_flux back = thermal_back_flux(body, load, state.back_k);
@@ -212,8 +277,7 @@ static inline thermal_state thermal_start(const thermal_body *body, const therma
         state.back_k += body->slab != none ? back_rise : lump;
     }
     for (int i = 0; i < THERMAL_NODES; i++)
-        state.node_k[i] =
-            state.front_k + ((float)i + 0.5f) / THERMAL_NODES * (state.back_k - state.front_k);
+        state.node_k[i] = state.front_k + nodes->centre[i] * (state.back_k - state.front_k);
     return state;
 }
 
@@ -221,10 +285,12 @@ static inline thermal_state thermal_start(const thermal_body *body, const therma
  * sheets need no shorter steps.
  *   step_k_m2_w   dt / C */
 static inline void thermal_step_lump(thermal_state *state, const thermal_body *body,
-                                     const thermal_load *load, lanes step_k_m2_w)
+                                     const thermal_load *load, moisture_air air, lanes step_k_m2_w,
+                                     float step_s)
 {
-    const thermal_flux front = thermal_front_flux(body, load, state->front_k);
-    thermal_flux all = front;
+    const lanes began_k = state->front_k;
+    moisture_flux dew;
+    thermal_flux all = thermal_wet_flux(body, load, air, state, step_s, &dew);
 
     if (lanes_any(body->back > (lanes)0.0f)) {
         const thermal_flux back = thermal_back_flux(body, load, state->front_k);
@@ -235,39 +301,44 @@ static inline void thermal_step_lump(thermal_state *state, const thermal_body *b
     /* 1 - exp is good to 1e-7 of the way to the balance, far below what 300 K are rounded to. */
     const lanes gain = decay > (lanes)1e-4f ? (1.0f - exp(-decay)) / all.w_m2_k : step_k_m2_w;
     state->front_k += gain * all.w_m2;
+    /* Of the flux, what did not warm the node went with its mean rise. */
+    const lanes mean_k = decay > (lanes)1e-2f ? (1.0f - gain / step_k_m2_w) * all.w_m2 / all.w_m2_k
+                                              : 0.5f * gain * all.w_m2;
+    thermal_step_film(state, air, began_k, &dew, mean_k, step_s);
 }
 
-/* Eight equal nodes, backward Euler, solved for the rises so that single precision suffices:
- * C dT_j/dt = G (T_{j-1} - T_j) + G (T_{j+1} - T_j), eliminated from the back to the front. What a
+/* Eight nodes, backward Euler, solved for the rises so that single precision suffices:
+ * C_j dT_j/dt = G_j (T_{j-1} - T_j) + G_{j+1} (T_{j+1} - T_j), eliminated from the back to the front. What a
  * node and all behind it take up per kelvin that it rises is
- *   taken_j = C / dt + G taken_{j+1} / (G + taken_{j+1}),
+ *   taken_j = C_j / dt + G_{j+1} taken_{j+1} / (G_{j+1} + taken_{j+1}),
  * a sum without a difference, good to the last digit however thin the slab. It changes with the
  * back's slope alone and is computed once in a step of the weather. */
 typedef struct thermal_elimination {
-    lanes between, half_way;      /* G, and from a face to its node */
-    lanes back_slope;             /* of the back's flux */
-    lanes back_way;               /* 1 / (half_way + back_slope) */
-    lanes passed[THERMAL_NODES];  /* G / (G + taken_j), the last with the back's face */
-    lanes inverse[THERMAL_NODES]; /* 1 / (G + taken_j); of node 0: taken_0 itself */
+    lanes between[THERMAL_NODES + 1]; /* G_j, the first and the last from a face to its node */
+    lanes back_slope;                 /* of the back's flux */
+    lanes back_way;                   /* 1 / (the last G + back_slope) */
+    lanes passed[THERMAL_NODES];      /* G_j / (G_j + taken_j); of 0: of the back's face */
+    lanes inverse[THERMAL_NODES];     /* 1 / (G_j + taken_j); of node 0: taken_0 itself */
 } thermal_elimination;
 
-static inline thermal_elimination thermal_eliminate(const thermal_body *body, lanes back_slope,
+static inline thermal_elimination thermal_eliminate(const thermal_body *body,
+                                                    const thermal_nodes *nodes, lanes back_slope,
                                                     float step_s)
 {
-    const lanes stored = body->capacity_j_m2_k / (THERMAL_NODES * step_s);
+    const int last = THERMAL_NODES - 1;
     thermal_elimination e;
     lanes taken;
 
-    e.between = body->conductance_w_m2_k * (float)THERMAL_NODES;
-    e.half_way = 2.0f * e.between;
+    for (int j = 0; j <= THERMAL_NODES; j++)
+        e.between[j] = body->conductance_w_m2_k * nodes->way[j];
     e.back_slope = back_slope;
-    e.back_way = 1.0f / (e.half_way + back_slope);
-    e.passed[0] = e.half_way * e.back_way;
-    taken = stored + e.passed[0] * back_slope;
-    for (int j = THERMAL_NODES - 1; j > 0; j--) {
-        e.inverse[j] = 1.0f / (e.between + taken);
-        e.passed[j] = e.between * e.inverse[j];
-        taken = stored + taken * e.passed[j];
+    e.back_way = 1.0f / (e.between[THERMAL_NODES] + back_slope);
+    e.passed[0] = e.between[THERMAL_NODES] * e.back_way;
+    taken = body->capacity_j_m2_k * nodes->fraction[last] / step_s + e.passed[0] * back_slope;
+    for (int j = last; j > 0; j--) {
+        e.inverse[j] = 1.0f / (e.between[j] + taken);
+        e.passed[j] = e.between[j] * e.inverse[j];
+        taken = body->capacity_j_m2_k * nodes->fraction[j - 1] / step_s + taken * e.passed[j];
     }
     e.inverse[0] = taken;
     return e;
@@ -276,27 +347,32 @@ static inline thermal_elimination thermal_eliminate(const thermal_body *body, la
 /* The front's face has no capacity: with its flux F - S (T - T_front) and H from it to node 0, node 0
  * rises by (right_0 (H + S) + H F') / (taken_0 (H + S) + H S). One division serves both. */
 static inline void thermal_step_slab(thermal_state *state, const thermal_body *body,
-                                     const thermal_elimination *e, const thermal_load *load)
+                                     const thermal_elimination *e, const thermal_nodes *nodes,
+                                     const thermal_load *load, moisture_air air, float step_s)
 {
     const int last = THERMAL_NODES - 1;
-    const thermal_flux front = thermal_front_flux(body, load, state->front_k);
-    const lanes both = e->half_way + front.w_m2_k;
-    const lanes all = e->inverse[0] * both + e->half_way * front.w_m2_k;
+    const lanes before = e->between[0];
+    const lanes began_k = state->front_k;
+    moisture_flux dew;
+    const thermal_flux front = thermal_wet_flux(body, load, air, state, step_s, &dew);
+    const lanes both = before + front.w_m2_k;
+    const lanes all = e->inverse[0] * both + before * front.w_m2_k;
     const lanes quotient = 1.0f / (both * all);
     thermal_flux back = {0.0f, 0.0f};
     lanes right[THERMAL_NODES], rise;
 
     if (lanes_any(body->back > (lanes)0.0f)) back = thermal_back_flux(body, load, state->back_k);
     right[last] =
-        e->between * (state->node_k[last - 1] - state->node_k[last]) +
+        e->between[last] * (state->node_k[last - 1] - state->node_k[last]) +
         e->passed[0] * (back.w_m2 + e->back_slope * (state->back_k - state->node_k[last]));
     for (int j = last - 1; j > 0; j--)
-        right[j] = fma(e->passed[j + 1], right[j + 1],
-                       e->between * ((state->node_k[j - 1] - state->node_k[j]) +
-                                     (state->node_k[j + 1] - state->node_k[j])));
-    right[0] = fma(e->passed[1], right[1], e->between * (state->node_k[1] - state->node_k[0]));
+        right[j] =
+            fma(e->passed[j + 1], right[j + 1],
+                e->between[j] * ((state->node_k[j - 1] - state->node_k[j]) +
+                                 nodes->onward[j] * (state->node_k[j + 1] - state->node_k[j])));
+    right[0] = fma(e->passed[1], right[1], e->between[1] * (state->node_k[1] - state->node_k[0]));
     rise = fma(right[0], both,
-               e->half_way * (front.w_m2 + front.w_m2_k * (state->front_k - state->node_k[0]))) *
+               before * (front.w_m2 + front.w_m2_k * (state->front_k - state->node_k[0]))) *
            (quotient * both);
     state->node_k[0] += rise;
     for (int j = 1; j <= last; j++) {
@@ -304,9 +380,11 @@ static inline void thermal_step_slab(thermal_state *state, const thermal_body *b
         state->node_k[j] += rise;
     }
     state->front_k +=
-        (front.w_m2 - e->half_way * (state->front_k - state->node_k[0])) * (quotient * all);
+        (front.w_m2 - before * (state->front_k - state->node_k[0])) * (quotient * all);
     state->back_k +=
-        (back.w_m2 - e->half_way * (state->back_k - state->node_k[last])) * e->back_way;
+        (back.w_m2 - e->between[THERMAL_NODES] * (state->back_k - state->node_k[last])) *
+        e->back_way;
+    thermal_step_film(state, air, began_k, &dew, state->front_k - began_k, step_s);
 }
 
 static inline lanes thermal_sub_direct(const thermal_load *before, const thermal_load *after, int i,
@@ -320,52 +398,65 @@ static inline int thermal_sub_steps(float step_s)
     return 2 * (int)ceil(0.5f * step_s / THERMAL_SUB_STEP_S);
 }
 
-/* Goes from one record of the weather to the next. The slab's implicit step takes the load at its
- * end, the lump's at its middle. */
-static inline void thermal_advance_slab(thermal_state *state, const thermal_body *body,
-                                        const thermal_load *before, const thermal_load *after,
-                                        float step_s, int count)
+/* The way from one record of the weather to the next; the air's vapour is held like the sun. */
+typedef struct thermal_way {
+    thermal_nodes nodes;
+    thermal_load before, after;
+    moisture_air air_before, air_after;
+    float step_s;
+    int count; /* of sub-steps */
+} thermal_way;
+
+static inline moisture_air thermal_sub_air(const thermal_way *way, int i)
 {
-    const thermal_flux back = thermal_back_flux(body, before, state->back_k);
-    const thermal_elimination e = thermal_eliminate(body, back.w_m2_k, step_s / (float)count);
+    return 2 * i < way->count ? way->air_before : way->air_after;
+}
+
+/* The slab's implicit step takes the load at its end, the lump's at its middle. */
+static inline void thermal_advance_slab(thermal_state *state, const thermal_body *body,
+                                        const thermal_way *way)
+{
+    const int count = way->count;
+    const float step_s = way->step_s / (float)count;
+    const thermal_flux back = thermal_back_flux(body, &way->before, state->back_k);
+    const thermal_elimination e = thermal_eliminate(body, &way->nodes, back.w_m2_k, step_s);
 
     for (int i = 0; i < count; i++) {
-        const thermal_load load = thermal_load_between(before, after, (float)(i + 1) / (float)count,
-                                                       thermal_sub_direct(before, after, i, count));
-        thermal_step_slab(state, body, &e, &load);
+        const thermal_load load =
+            thermal_load_between(&way->before, &way->after, (float)(i + 1) / (float)count,
+                                 thermal_sub_direct(&way->before, &way->after, i, count));
+        thermal_step_slab(state, body, &e, &way->nodes, &load, thermal_sub_air(way, i), step_s);
     }
 }
 
 static inline void thermal_advance_lump(thermal_state *state, const thermal_body *body,
-                                        const thermal_load *before, const thermal_load *after,
-                                        float step_s, int count)
+                                        const thermal_way *way)
 {
-    const lanes step_k_m2_w = step_s / (float)count / body->capacity_j_m2_k;
+    const int count = way->count;
+    const float step_s = way->step_s / (float)count;
+    const lanes step_k_m2_w = way->step_s / (float)count / body->capacity_j_m2_k;
 
     for (int i = 0; i < count; i++) {
         const thermal_load load =
-            thermal_load_between(before, after, ((float)i + 0.5f) / (float)count,
-                                 thermal_sub_direct(before, after, i, count));
-        thermal_step_lump(state, body, &load, step_k_m2_w);
+            thermal_load_between(&way->before, &way->after, ((float)i + 0.5f) / (float)count,
+                                 thermal_sub_direct(&way->before, &way->after, i, count));
+        thermal_step_lump(state, body, &load, thermal_sub_air(way, i), step_k_m2_w, step_s);
     }
     state->back_k = state->front_k;
 }
 
 /* Slabs and lumps side by side: each goes its own way, the other's is not taken. */
 static inline void thermal_advance(thermal_state *state, const thermal_body *body,
-                                   const thermal_load *before, const thermal_load *after,
-                                   float step_s)
+                                   const thermal_way *way)
 {
     const lanes none = 0.0f;
-    const int count = thermal_sub_steps(step_s);
     thermal_state as_lump = *state;
 
-    if (lanes_any(body->slab == none))
-        thermal_advance_lump(&as_lump, body, before, after, step_s, count);
-    if (lanes_any(body->slab != none))
-        thermal_advance_slab(state, body, before, after, step_s, count);
+    if (lanes_any(body->slab == none)) thermal_advance_lump(&as_lump, body, way);
+    if (lanes_any(body->slab != none)) thermal_advance_slab(state, body, way);
     state->front_k = body->slab != none ? state->front_k : as_lump.front_k;
     state->back_k = body->slab != none ? state->back_k : as_lump.back_k;
+    state->film_kg_m2 = body->slab != none ? state->film_kg_m2 : as_lump.film_kg_m2;
 }
 
 #endif

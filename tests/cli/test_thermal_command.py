@@ -122,6 +122,39 @@ def test_materials_peak_in_the_order_of_what_is_plausible(second_day):
                 if CLEAR_DAY_C[a][1] < CLEAR_DAY_C[b][1] - 2 and peak[a] >= peak[b]]
 
 
+def sheet(tmp_path, exposed_area=0.5):
+    library = tmp_path / "sheet.mat"
+    library.write_text(f"1\nsheet\n1\n.11\n40.0\n7.8\n0.0\n.9\n.9\n{exposed_area}\nabsent.ems\nabsent.ext\n")
+    return library
+
+
+def calm_night(tmp_path, air_c=15.0, dew_c=14.2, wind_m_s=2.0):
+    """48 hours without sun."""
+    rows = [f"{0.25 * i:.2f} {air_c} 1013 .95 {dew_c} {wind_m_s} 0 0 1 0 0 0 0" for i in range(193)]
+    path = tmp_path / "night.wth"
+    path.write_text("\n".join(["193 0.25", *rows]) + "\n")
+    return path
+
+
+@pytest.mark.parametrize("law", ["therm", "mcadams", "tarp", "similarity"])
+@pytest.mark.parametrize("model", ["therm", "layered"])
+def test_a_level_sheet_in_a_calm_moist_night_stays_above_11_c(tmp_path, law, model):
+    done = thermal(**PLACE, materials=sheet(tmp_path), material="sheet", weather=calm_night(tmp_path),
+                   thickness_cm=0.1, convection=law, model=model)
+
+    last = float(done.stdout.splitlines()[-1].split(",")[1])
+    assert 11 < last < 14.2  # wet, so below the dew point
+
+
+def test_the_thesis_mode_has_no_dew(tmp_path):
+    last = [float(thermal(**PLACE, materials=sheet(tmp_path), material="sheet",
+                          weather=calm_night(tmp_path), thickness_cm=0.1, mode=mode)
+                  .stdout.splitlines()[-1].split(",")[1]) for mode in ("exact", "thesis")]
+
+    # THERM's air alone: 0.9 (sigma T^4 - 312) = 11.4 (288.15 - T)
+    assert last[1] == pytest.approx(10.61, abs=0.03) and last[0] > last[1] + 1
+
+
 def test_water_as_one_lump_hardly_swings(materials, tmp_path):
     library = tmp_path / "lump.mat"
     library.write_text(materials.read_text().replace("-0.57", "0.57"))

@@ -124,7 +124,9 @@ def test_backgrounds_have_their_own_shade_in_exact_mode_alone(program, tmp_path)
         for mode in ("thesis", "exact"))
     seen = (thesis > -9000) & (exact > -9000)
 
-    assert seen.any() and (exact <= thesis + 1e-3)[seen].all()
+    difference = (exact - thesis)[seen]
+    # nodes, start and air differ between the modes too, by some thousandths at two in the afternoon
+    assert difference.max() < 0.01 and difference.min() < -0.05
 
 
 @pytest.mark.parametrize("model", ["therm", "layered"])

@@ -34,7 +34,7 @@ MATERIAL = record("density_kg_m3 specific_heat_j_kg_k conductivity_w_m_k solar_a
                   " *emissivity_angles *number *lobe_first roughness")
 FORCING = record("air_temperature_k sky_longwave_w_m2 convection_w_m2_k direct_w_m2 diffuse_w_m2"
                  " sun[3] rain_w_m2_k rain_temperature_k specific_humidity"
-                 " pressure_pa *convection_law buoyancy roughness *unused")
+                 " pressure_pa *convection_law buoyancy roughness plate_w_m2_k wet_below_k *unused[3]")
 WORLD = record("*ground_facet ground_z_m offset_m *cull_back")
 BACKGROUND = record("shape_factor mean_temperature_k *material *facet point[3] normal[3]"
                     " *met_count *unused")

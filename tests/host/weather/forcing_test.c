@@ -67,6 +67,44 @@ static void clouds_raise_every_law_and_measured_longwave_none(void **state)
     assert_near(emissivity(&w, FORCING_BRUNT) * 5.670374419e-8 * pow(293.15, 4), 333, 1e-3);
 }
 
+static void the_longwave_of_fog_is_that_of_black_air(void **state)
+{
+    (void)state;
+    weather_record w = mild();
+    w.cloud_type = 8;
+    const double clear = emissivity(&w, FORCING_BRUNT);
+
+    w.sky_exposure = 0;
+    assert_near(emissivity(&w, FORCING_BRUNT), 1, 1e-6);
+    w.sky_exposure = 0.5;
+    assert_near(emissivity(&w, FORCING_BRUNT), clear + 0.25 * (1 - clear), 1e-6);
+}
+
+static void clouds_without_a_type_count_as_altostratus(void **state)
+{
+    (void)state;
+    weather_record w = mild();
+    const double clear = emissivity(&w, FORCING_BRUNT);
+
+    w.sky_exposure = 0.5;
+    assert_near(emissivity(&w, FORCING_BRUNT), clear * (1 + 0.20 * 0.25), 1e-6);
+}
+
+static void thesis_mode_keeps_its_fog_and_its_clouds_without_a_type(void **state)
+{
+    (void)state;
+    const forcing_laws laws = {.thesis = true};
+    weather_record w = mild();
+    const double clear = emissivity(&w, FORCING_BRUNT), black = 5.670374419e-8 * pow(293.15, 4);
+
+    w.sky_exposure = 0;
+    assert_near((double)forcing_of(&w, at_30_deg, &laws, false).sky_longwave_w_m2 / black, clear,
+                1e-6);
+    w.cloud_type = 8;
+    assert_near((double)forcing_of(&w, at_30_deg, &laws, false).sky_longwave_w_m2 / black,
+                clear * 1.25, 1e-6);
+}
+
 static void convection_is_the_model_s_own_unless_stated(void **state)
 {
     (void)state;
@@ -110,6 +148,42 @@ static void similarity_takes_the_logarithmic_wind_s_part(void **state)
     assert_near(f.roughness, 5.3 * 9.4 * 0.16 / pow(log(10000), 2) * sqrt(10000), 1e-4);
     assert_near(g.convection_w_m2_k, heat * 0.16 * 3 / (0.74 * pow(log(60), 2)), 1e-3);
     assert_near(g.buoyancy, 9.80665 * 3 / 9, 1e-5);
+    assert_near(f.plate_w_m2_k, 2.537 * 1.52 * sqrt(3), 1e-4);
+}
+
+/* A logarithmic wind: ln(10 / 0.01) / ln(2 / 0.01) times as fast at 10 m as at 2 m. */
+static void the_wind_s_height_acts_in_every_law(void **state)
+{
+    (void)state;
+    const weather_record w = mild();
+    const double wind_m_s = 3 * log(1000) / log(200);
+    forcing_laws laws = {.roughness_length_m = 0.01, .wind_height_m = 2};
+
+    laws.convection = FORCING_THERM;
+    assert_near(forcing_of(&w, at_30_deg, &laws, false).convection_w_m2_k, 9 + 1.2 * wind_m_s,
+                1e-5);
+    laws.convection = FORCING_MCADAMS;
+    assert_near(forcing_of(&w, at_30_deg, &laws, false).convection_w_m2_k, 5.7 + 3.8 * wind_m_s,
+                1e-5);
+    laws.convection = FORCING_TARP;
+    assert_near(forcing_of(&w, at_30_deg, &laws, false).convection_w_m2_k,
+                2.537 * 1.52 * sqrt(wind_m_s), 1e-4);
+    laws.thesis = true;
+    laws.convection = FORCING_THERM;
+    assert_near(forcing_of(&w, at_30_deg, &laws, false).convection_w_m2_k, 9 + 1.2 * 3, 1e-5);
+}
+
+static void free_convection_counts_but_in_thesis_mode(void **state)
+{
+    (void)state;
+    const weather_record w = mild();
+    const forcing_laws exact = {.convection = FORCING_MCADAMS};
+    const forcing_laws thesis = {.convection = FORCING_MCADAMS, .thesis = true};
+    const forcing_laws bare = {.convection = FORCING_SIMILARITY, .thesis = true};
+
+    assert_int_equal(forcing_of(&w, at_30_deg, &exact, true).convection_law, CONVECTION_BLENDED);
+    assert_int_equal(forcing_of(&w, at_30_deg, &thesis, true).convection_law, CONVECTION_WIND);
+    assert_near(forcing_of(&w, at_30_deg, &bare, true).plate_w_m2_k, 0, 0);
 }
 
 static void still_air_keeps_a_breath_of_wind_over_a_roughness(void **state)
@@ -194,9 +268,14 @@ int main(void)
         cmocka_unit_test(clear_skies_have_the_emissivity_of_their_laws),
         cmocka_unit_test(berdahl_s_sky_is_colder_at_noon_and_warmer_under_pressure),
         cmocka_unit_test(clouds_raise_every_law_and_measured_longwave_none),
+        cmocka_unit_test(the_longwave_of_fog_is_that_of_black_air),
+        cmocka_unit_test(clouds_without_a_type_count_as_altostratus),
+        cmocka_unit_test(thesis_mode_keeps_its_fog_and_its_clouds_without_a_type),
         cmocka_unit_test(convection_is_the_model_s_own_unless_stated),
         cmocka_unit_test(tarp_s_wind_is_that_of_a_medium_rough_plate),
         cmocka_unit_test(similarity_takes_the_logarithmic_wind_s_part),
+        cmocka_unit_test(the_wind_s_height_acts_in_every_law),
+        cmocka_unit_test(free_convection_counts_but_in_thesis_mode),
         cmocka_unit_test(still_air_keeps_a_breath_of_wind_over_a_roughness),
         cmocka_unit_test(hay_and_davies_move_the_sun_s_share_into_the_beam),
         cmocka_unit_test(without_a_beam_all_skies_are_isotropic),

@@ -5,7 +5,7 @@ import pyopencl as cl
 import pytest
 from records import FACET, FORCING, MATERIAL, SPAN
 
-TARP, SIMILARITY = 1, 2
+TARP, SIMILARITY, BLENDED = 1, 2, 3
 AIR_K, STEP_S = 290.0, 900.0
 GRAVITY, KARMAN = 9.80665, 0.4
 
@@ -35,10 +35,10 @@ def similarity_terms(wind_m_s, height_m=10.0, length_m=0.01, heat_j_m3_k=1200.0)
             5.3 * 9.4 * drag * np.sqrt(height_m / length_m))
 
 
-def of_law(opencl, law, up, rise_k, wind=0.0, buoyancy=0.0, roughness=0.0):
-    body = (f"const convection_air a = {{{law}u, {AIR_K}f, in2[i], in3[i], in4[i]}};"
+def of_law(opencl, law, up, rise_k, wind=0.0, buoyancy=0.0, roughness=0.0, plate=0.0):
+    body = (f"const convection_air a = {{{law}u, {AIR_K}f, in2[i], in3[i], in4[i], in5[i]}};"
             f"out[0] = convection_of(a, in0[i], {AIR_K}f + in1[i]);")
-    values = np.broadcast_arrays(up, rise_k, wind, buoyancy, roughness)
+    values = np.broadcast_arrays(up, rise_k, wind, buoyancy, roughness, plate)
     return probe.probe(opencl, "convection.h", body, values, options="-DLANES_WIDTH=1")[0]
 
 
@@ -50,6 +50,26 @@ def test_what_rises_by_itself_is_tarp_s(opencl):
     # 290 K + rise in float32 leaves 3e-5 K of a rise of 2 K, and 1.31 against 9.482 / 7.238
     assert of_law(opencl, TARP, UP, RISE_K, wind=6.0) == pytest.approx(
         6.0 + tarp_natural(UP, RISE_K), rel=4e-4)
+
+
+@pytest.mark.parametrize("wind", [0.5, 5.7, 13.3])
+def test_wind_and_what_rises_blend_by_their_cubes(opencl, wind):
+    expected = (wind**3 + tarp_natural(UP, RISE_K) ** 3) ** (1 / 3)
+
+    assert of_law(opencl, BLENDED, UP, RISE_K, wind=wind) == pytest.approx(expected, rel=4e-4)
+
+
+@pytest.mark.parametrize("wind_m_s", [0.1, 1.0, 2.0, 5.0])
+def test_stable_air_takes_no_less_than_from_a_plate(opencl, wind_m_s):
+    wind, buoyancy, roughness = similarity_terms(wind_m_s)
+    plate = 3.86 * np.sqrt(wind_m_s)
+
+    found = of_law(opencl, SIMILARITY, UP, RISE_K, wind, buoyancy, roughness, plate)
+
+    cold = np.maximum(louis(wind_m_s, RISE_K), plate + tarp_natural(UP, RISE_K))
+    expected = np.where(RISE_K > 0, louis(wind_m_s, RISE_K), cold)
+    assert found == pytest.approx(np.maximum(expected, 2.0), rel=4e-4)
+    assert found.min() >= 2.0  # W m-2 K-1
 
 
 @pytest.mark.parametrize("wind_m_s", [0.1, 1.0, 5.0])
@@ -78,7 +98,7 @@ def run(opencl, forcing, area, **matter):
     span = np.zeros(1, SPAN)
     span[0] = (1, 0, len(forcing), 0, 1.0, STEP_S, 0, len(forcing))
     out = np.empty(len(forcing), np.float32)
-    opencl.run("thermal", (1,), span=span, facets=facets, materials=materials,
+    opencl.run("thermal", (1,), span=span, thesis=1, facets=facets, materials=materials,
                load={"forcing": forcing, "power_materials": 0}, temperature_k=out)
     return out
 
@@ -143,10 +163,10 @@ kernel void probe(global float *out) {
     layered_body body;
     for (int i = 0; i < 3; i++) body.face.normal[i] = i == 2;
     body.day_s_m = body.night_s_m = 0;
-    out[0] = layered_latent(&body, layered_air_of(f), 300.0f, 0.0f).w_m2;
+    out[0] = layered_latent(&body, layered_air_of(f), 300.0f, 0.0f, 300.0f).w_m2;
     f.convection_law = CONVECTION_TARP;
     f.convection_w_m2_k = 9 - 9.482f * cbrt(10.0f) / (7.238f - 1);
-    out[1] = layered_latent(&body, layered_air_of(f), 300.0f, 0.0f).w_m2;
+    out[1] = layered_latent(&body, layered_air_of(f), 300.0f, 0.0f, 300.0f).w_m2;
 }
 """
     program = cl.Program(opencl.context, source).build(

@@ -12,7 +12,7 @@ ASPHALT = {"density_kg_m3": 2114.0, "specific_heat_j_kg_k": 920.0, "conductivity
 
 
 def launch(opencl, width, facets, materials, forcing, *, first=0, rows=None, weight=1.0,
-           step_s=STEP_S, lit=None, fraction=None, period=0, power=None):
+           step_s=STEP_S, lit=None, fraction=None, period=0, power=None, thesis=1):
     """Temperatures of shape (rows, facets); `width` facets a work-item."""
     rows = len(forcing) if rows is None else rows
     bit_words = 0 if lit is None else (len(lit) + 31) // 32
@@ -24,7 +24,7 @@ def launch(opencl, width, facets, materials, forcing, *, first=0, rows=None, wei
         mask = np.concatenate([mask, packed_bytes(fraction, words - bit_words)])
     out = np.empty((rows, len(facets)), np.float32)
     opencl.run("thermal", ((len(facets) + width - 1) // width,), options=f"-DLANES_WIDTH={width}",
-               span=span, facets=facets, materials=materials,
+               span=span, thesis=thesis, facets=facets, materials=materials,
                load={"forcing": forcing, "sunlit": mask, "power": power,
                      "power_materials": 0 if power is None else power.shape[1]},
                temperature_k=out)
@@ -121,6 +121,86 @@ def test_every_material_of_table_d1_equals_double_precision(thermal, table, two_
 
     # 0.05 C: the acceptance of the thermal model at any step
     assert abs(single - reference.history(*table, two_days, STEP_S)).max() < 0.05
+
+
+@pytest.mark.parametrize("celsius", [10.0, -4.0])
+def test_every_material_with_dew_or_frost_equals_double_precision(thermal, table, two_days, celsius):
+    wet = two_days.copy()
+    vapour = 611.2 * np.exp(17.62 * celsius / (243.12 + celsius))
+    wet["pressure_pa"], wet["specific_humidity"] = 101325, 0.622 * vapour / (101325 - 0.378 * vapour)
+    wet["wet_below_k"] = 275.15 + celsius
+    for name in ("air_temperature_k", "rain_temperature_k"):
+        wet[name] += celsius - 10
+    wet["sky_longwave_w_m2"] *= 0.9
+
+    single = thermal(*table, wet)
+
+    double = reference.history(*table, wet, STEP_S)
+    wet["wet_below_k"] = 0
+    assert abs(single - double).max() < 0.05
+    assert abs(double - reference.history(*table, wet, STEP_S)).max() > 0.5  # C: it was wet
+
+
+def many_days(forcing, days):
+    """The first day over and over, then all of it."""
+    return np.concatenate([np.tile(forcing[:96], days), forcing])
+
+
+def test_the_settled_start_is_where_many_days_end(thermal, table, two_days):
+    """In double precision, with the unequal nodes, through 15 first days."""
+    forcing = two_days.copy()
+    forcing["convection_w_m2_k"] = 11 + np.sin(2 * np.pi * np.arange(193) / 96)  # as every day
+
+    settled = thermal(*table, forcing, thesis=0)
+
+    double = reference.history(*table, many_days(forcing, 15), STEP_S, ratio=1.5)[15 * 96:]
+    # settled to 0.01 K a day of the thickest; 0.05 C of rounding
+    assert abs(settled - double).max() < 0.1
+
+
+@pytest.mark.parametrize("thickness_m, exposed_area", [(0.001, 0.5), (1.0, 0.5), (3.0, 0.7), (1.0, -0.5), (0.3, -0.8)])
+def test_equal_days_are_equal_from_the_start(thermal, thickness_m, exposed_area):
+    facets, materials = one_facet(thickness_m, exposed_area, solar_absorptance=0.9, thermal_emissivity=0.9)
+    hour = np.arange(193) * 0.25
+    forcing = steady_forcing(193, convection_w_m2_k=12.0, sky_longwave_w_m2=300.0)
+    forcing["direct_w_m2"] = 500 * np.maximum(0, np.sin(2 * np.pi * (hour - 6) / 24))
+
+    front = thermal(facets, materials, forcing, thesis=0)[:, 0].astype(float)
+
+    assert abs(front[96:] - front[:97]).max() < 0.02  # .01 K a day of what is slowest
+
+
+def test_power_into_what_exchanges_nothing_is_not_run_for_days(thermal):
+    facets, materials = one_facet(1e5 / (2114 * 920), 0.0)
+    power = np.full((193, 1), 1.0)
+
+    front = thermal(facets, materials, steady_forcing(193), power=power.astype(np.float32), thesis=0)[:, 0]
+
+    assert front[0] == pytest.approx(290.0, abs=1e-3)
+    assert front[-1] == pytest.approx(290 + 2 * 86400 / 1e5, abs=0.01)  # 1 W/m2 for two days
+
+
+@pytest.mark.parametrize("h, gain, lag_h", [(10.0, 0.5447, 1.490), (20.0, 0.7177, 0.967)])
+def test_thick_ground_of_unequal_nodes_follows_a_daily_wave(thermal, h, gain, lag_h):
+    """Semi-infinite asphalt; with equal nodes it lags by 34 minutes more."""
+    facets, materials = one_facet(1.0, -0.5)
+    hour = np.arange(193) * 0.25
+    forcing = steady_forcing(193, convection_w_m2_k=h)
+    forcing["air_temperature_k"] = 290 + 10 * np.sin(2 * np.pi * hour / 24)
+
+    surface = thermal(facets, materials, forcing, thesis=0)[-96:, 0].astype(float) - 290
+
+    wave = np.mean(surface * np.exp(-2j * np.pi * hour[-96:] / 24)) * 2j / 10
+    assert abs(wave) == pytest.approx(gain, rel=0.01)
+    assert -np.angle(wave) * 24 / (2 * np.pi) == pytest.approx(lag_h, abs=4 / 60)
+
+
+def test_a_settled_facet_does_not_depend_on_its_neighbours(thermal, table, two_days):
+    facets, materials = table
+    order = np.random.default_rng(12).permutation(22)
+
+    assert (thermal(facets[order], materials, two_days, thesis=0)
+            == thermal(facets, materials, two_days, thesis=0)[:, order]).all()
 
 
 def test_shorter_steps_change_the_table_by_less_than_a_quarter_degree(thermal, table, two_days):
