@@ -16,7 +16,7 @@ PACKAGES := build-essential pkg-config python3 python3-numpy python3-pyopencl py
 	python3-spectral pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libopenmesh-dev \
 	libtinyobjloader-dev libopenimageio-dev libtomlplusplus-dev libcmocka-dev nettle-dev libjansson-dev fonts-dejavu-core \
 	libxxhash-dev uthash-dev libosmesa6-dev libglfw3-dev libgl-dev libgl1-mesa-dri xvfb xauth xdotool
-TEST_PACKAGES := oclgrind openimageio-tools python3-scipy
+TEST_PACKAGES := oclgrind openimageio-tools python3-pytest-xdist python3-scipy
 LINT_PACKAGES := clang-format clang libclc-14 cppcheck python3-venv
 
 # A plain python3 on the path may lack Debian's packages.
@@ -221,39 +221,32 @@ demo: deps all
 	@echo "written:"; ls out/airport | sed 's,^,  out/airport/,'
 
 # What the tests need beside what the program needs.
-.PHONY: test-deps test-sanitizers test-threads test-oclgrind
+.PHONY: test-deps test-sanitizers test-threads
 test-deps: deps
 	@$(call install,$(TEST_PACKAGES))
 
-## test: build and run all tests; TESTS=tests/cli some of those in Python, SAN=address with sanitizers
+## test: build and run all tests; TESTS=tests/cli some of those in Python, TEST_JOBS=1 one by one, SAN=address
 TESTS ?= tests
+PYTEST = $(PYTHON) -m pytest -q -rs -p no:cacheprovider -n $(TEST_JOBS) --dist loadfile
+TEST_JOBS ?= 2
 SKIPPED := $(BUILD)/skipped
 test: test-deps all $(HOST_TESTS) $(BUILD)/exact-rays $(ATMOSPHERE_AT_HAND)
 	@set -e; : >$(SKIPPED); for t in $(HOST_TESTS); do \
 	    $(RUN_SANITIZED) $$t >$(BUILD)/one.log 2>&1 || { cat $(BUILD)/one.log; exit 1; }; \
 	    cat $(BUILD)/one.log; sed -n "s,^skipped: ,$${t##*/}: ,p" $(BUILD)/one.log >>$(SKIPPED); done
 	$(RUN_SANITIZED) $(BUILD)/exact-rays 2000 airport hall terrain-54450
-	$(RUN_SANITIZED) RADSIG=$(PROGRAM) RADSIG_SKIPPED=$(SKIPPED) $(PYTHON) -m pytest -q -rs -p no:cacheprovider $(TESTS)
+	$(RUN_SANITIZED) RADSIG=$(PROGRAM) RADSIG_SKIPPED=$(SKIPPED) $(PYTEST) $(TESTS)
 
 # Defects that no answer shows: accesses out of bounds, undefined behaviour, leaks. gcc does not count
 # conversions of floats that fit no integer as undefined.
 SANITIZERS := address,undefined,float-cast-overflow
 SANITIZED_TESTS := $(addprefix tests/cli/test_,bands.py check.py formats.py probe.py render_files.py \
-	sensor.py times.py trace.py usage.py validate.py weather_station.py)
+	sensor.py times.py trace.py usage.py validate.py weather_clock.py weather_dated.py weather_gaps.py weather_station.py \
+	weather_table.py)
 
 ## test-sanitizers: the tests in C and some of the programs', with AddressSanitizer and UBSan
 test-sanitizers:
 	@$(MAKE) test SAN=$(SANITIZERS) TESTS="$(SANITIZED_TESTS)"
-
-# Oclgrind 21.10 does not know some of what its compiler makes of optimised code.
-OCLGRIND := oclgrind --log build/oclgrind.log --data-races --build-options "-cl-opt-disable -DRAY_PORTABLE"
-
-## test-oclgrind: kernels under Oclgrind: no access out of bounds, no race
-test-oclgrind: test-deps all
-	@rm -f build/oclgrind.log
-	$(OCLGRIND) $(PYTHON) -m pytest -q -rs -p no:cacheprovider -m "not large" tests/kernels
-	@if [ -s build/oclgrind.log ]; then cat build/oclgrind.log; exit 1; fi
-	$(PYTHON) -m pytest -q -rs -p no:cacheprovider tests/cli/test_oclgrind.py
 
 # What runs in several threads; bvh_cache forks.
 THREADED := bvh bvh_binary bvh_cache bvh_wide image interrupt output_file output_folder parallel_job \

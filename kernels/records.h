@@ -243,6 +243,13 @@ RECORD_SIZE(air_record, 192);
 #define LIGHT_BLACK 4u
 #define LIGHT_ROWS 5u
 
+/* What interreflection.cl does with what reached facets before: of the last five depths it keeps the first
+ * and the third, to add what depths beyond the last would bring. */
+#define INTERREFLECTION_KEEPS_NONE 0u
+#define INTERREFLECTION_KEEPS_FIRST 1u
+#define INTERREFLECTION_KEEPS_MIDDLE 2u
+#define INTERREFLECTION_ADDS_TAIL 3u
+
 /* How radiance that reaches surfaces is summed up, see incident.cl. */
 typedef struct incident_record {
     uint cell_count;   /* of the hemisphere */

@@ -1,10 +1,13 @@
 #include "command/command_sensitivity.h"
 
+#include "base/number.h"
+#include "files/csv_row.h"
+#include "files/heading.h"
 #include "files/record_file.h"
 #include "image/curve.h"
 #include "image/picture.h"
+#include "station/weather_history.h"
 #include "thermal/sensitivity.h"
-#include "weather/weather_history.h"
 #include "weather/weather_place.h"
 
 #include <math.h>
@@ -56,20 +59,20 @@ out:
 }
 
 /* Takes `material,thickness_cm,slope_deg,azimuth_deg,power_w_m2`. */
-static status read_object(object_list *list, record_file *file, const material_library *library)
+static status read_object(object_list *list, csv_row *row, char separator, record_file *file,
+                          const material_library *library)
 {
     status rc = STATUS_OK;
     static const char expected[] = "a material's name and four numbers with commas between";
-    char name[MATERIAL_NAME_SIZE];
+    const char *name;
     double value[OBJECT_NUMBERS];
-    const char *text;
 
-    TRY(record_file_text(file, &text, expected));
-    const size_t length = strcspn(text, ",");
-    if (length >= sizeof name ||
-        record_numbers(text + length, OBJECT_NUMBERS, value) != OBJECT_NUMBERS)
-        TRY(record_file_reject(file, "%s", expected));
-    snprintf(name, sizeof name, "%.*s", (int)length, text);
+    TRY(csv_row_take(row, file, separator, expected));
+    bool is_whole = row->count == OBJECT_NUMBERS + 1;
+    for (size_t i = 0; is_whole && i < OBJECT_NUMBERS; i++)
+        is_whole = number_read(row->field[i + 1], &value[i]);
+    if (!is_whole) TRY(record_file_reject(file, "%s", expected));
+    name = row->field[0];
     const material *m = material_by_name(library, name);
     if (!m) TRY(record_file_reject(file, "a material of the list, not '%s'", name));
     if (value[0] < 1e-4 || value[0] > 1e4)
@@ -90,19 +93,32 @@ out:
     return rc;
 }
 
+static bool is_objects_header(const csv_row *row)
+{
+    static const char *const names[] = {"|material|", "|thickness_cm|", "|slope_deg|",
+                                        "|azimuth_deg|", "|power_w_m2|"};
+
+    for (size_t i = 0; i < OBJECT_NUMBERS + 1; i++)
+        if (!heading_is_named(csv_row_field(row, i), names[i])) return false;
+    return row->count == OBJECT_NUMBERS + 1;
+}
+
 static status read_objects(object_list *list, const char *path, const material_library *library)
 {
     status rc = STATUS_OK;
     record_file *file = NULL;
+    csv_row row = {0};
     const char *text;
 
     TRY(record_file_open(&file, path));
     TRY(record_file_text(file, &text, objects_header));
-    if (strcmp(text, objects_header))
-        TRY(record_file_reject(file, "the header %s", objects_header));
-    while (!record_file_at_end(file)) TRY(read_object(list, file, library));
+    const char separator = csv_separator(text);
+    TRY(csv_row_split(&row, text, separator));
+    if (!is_objects_header(&row)) TRY(record_file_reject(file, "the header %s", objects_header));
+    while (!record_file_at_end(file)) TRY(read_object(list, &row, separator, file, library));
     if (list->count == 0) TRY(record_file_reject(file, "objects behind the header"));
 out:
+    csv_row_free(&row);
     record_file_free(file);
     return rc;
 }

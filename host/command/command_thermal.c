@@ -4,8 +4,8 @@
 #include "image/curve.h"
 #include "image/picture.h"
 #include "kernels/constants.h"
+#include "station/weather_history.h"
 #include "thermal/thermal.h"
-#include "weather/weather_history.h"
 #include "weather/weather_place.h"
 
 #include <math.h>

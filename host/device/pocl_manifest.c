@@ -117,14 +117,10 @@ static bool open_manifest(manifest *m, const char *folder)
     FILE *file;
 
     *m = (manifest){0};
-    if (name_table_open(&m->names) != STATUS_OK) {
-        status_clear();
-        return false;
-    }
+    if (name_table_open(&m->names) != STATUS_OK) return false;
     file = path_of(path, folder) ? fopen(path, "rb") : NULL;
     while (file && fgets(line, sizeof line, file)) add_file(m, line);
     if (file) fclose(file);
-    status_clear();
     return true;
 }
 
@@ -189,8 +185,10 @@ static void write_manifest(const char *folder, const char *text)
     output_file_free(file);
 }
 
+/* Keeps what was said before, for example why a run ends: the manifest's own failures are none. */
 void pocl_manifest_update(const char *folder)
 {
+    status_record said = status_record_take(*status_message() ? STATUS_DEVICE : STATUS_OK);
     char *text = NULL;
     size_t size = 0;
     manifest m;
@@ -201,4 +199,7 @@ void pocl_manifest_update(const char *folder)
     }
     free(text);
     close_manifest(&m);
+    status_clear();
+    status_record_tell(&said);
+    status_record_free(&said);
 }

@@ -2,6 +2,7 @@
 
 #include "base/interrupt.h"
 #include "base/number.h"
+#include "files/text_encoding.h"
 #include "meshio/cancel.h"
 #include "meshio/input_file.h"
 
@@ -19,7 +20,10 @@ struct record_file {
     int next_line;     /* its line number, from 1 */
     const char *taken; /* the line that was taken last */
     int taken_line;
+    const char *separators; /* of numbers, beside blanks */
 };
+
+static int take_numbers(const char *text, const char *others, size_t limit, double *out);
 
 const char *record_text_begin(const char *text)
 {
@@ -36,6 +40,7 @@ static status read_whole(record_file *file)
     NEED(input_file_read(&file->text, &size, file->path, INPUT_FILE_TEXT_LIMIT, message,
                          sizeof message) == 0,
          STATUS_FILE, "%s", message);
+    TRY(text_encoding_unify(&file->text, &size));
     file->is_whole = size == 0 || file->text[size - 1] == '\n';
     NEED(strlen(file->text) == size, STATUS_FILE, "%s: is binary, expected text", file->path);
 out:
@@ -51,9 +56,10 @@ status record_file_open(record_file **out, const char *path)
     file->path = strdup(path);
     NEED(file->path, STATUS_MEMORY, "%s: no memory to read it", path);
     TRY(read_whole(file));
-    file->next = file->text + (record_text_begin(file->text) - file->text);
+    file->next = file->text;
     file->next_line = 1;
     file->taken = "";
+    file->separators = ",";
     *out = file;
     file = NULL;
 out:
@@ -151,10 +157,15 @@ status record_file_numbers(record_file *file, size_t count, double *out, const c
     const char *text;
 
     TRY(record_file_text(file, &text, expected));
-    if (record_numbers(text, count, out) != (int)count)
+    if (take_numbers(text, file->separators, count, out) != (int)count)
         rc = record_file_reject(file, "%s", expected);
 out:
     return rc;
+}
+
+void record_file_separate(record_file *file, char separator)
+{
+    file->separators = separator == ';' ? ";\"" : ",\"";
 }
 
 status record_file_number(record_file *file, double low, double high, double *out,
@@ -215,12 +226,13 @@ int record_file_line(const record_file *file)
     return file->taken_line;
 }
 
-int record_numbers(const char *text, size_t limit, double *out)
+/* `others` separate beside blanks. */
+static int take_numbers(const char *text, const char *others, size_t limit, double *out)
 {
     int count = 0;
 
     for (;;) {
-        while (isspace((unsigned char)*text) || *text == ',') text++;
+        while (isspace((unsigned char)*text) || (*text && strchr(others, *text))) text++;
         if (!*text) return count;
         double value;
         text = number_take(text, &value);
@@ -228,4 +240,9 @@ int record_numbers(const char *text, size_t limit, double *out)
         if ((size_t)count < limit) out[count] = value;
         count++;
     }
+}
+
+int record_numbers(const char *text, size_t limit, double *out)
+{
+    return take_numbers(text, ",", limit, out);
 }

@@ -10,8 +10,7 @@
 
 typedef struct record_file record_file;
 
-/* Reads the whole file; CR LF ends a line too, and the byte order mark of UTF-8 is passed over. Fails
- * with STATUS_FILE if it cannot be opened (input_file.h), or holds a zero byte (a binary file). */
+/* Reads the whole file, as UTF-8 with line feeds whatever it was (text_encoding.h). Fails with STATUS_FILE if it cannot be opened (input_file.h), or holds a zero byte (a binary file). */
 status record_file_open(record_file **out, const char *path);
 void record_file_free(record_file *file);
 
@@ -38,6 +37,10 @@ const char *record_file_peek(record_file *file);
 /* Takes a line that holds exactly `count` numbers. Numbers are told apart by their pattern, so
  * `0.00-15.00` are two; commas and blanks separate. */
 status record_file_numbers(record_file *file, size_t count, double *out, const char *expected);
+
+/* From now on numbers of a line are fields of a table: a comma or a semicolon separates, whichever is given, and
+ * quotes do not count. */
+void record_file_separate(record_file *file, char separator);
 
 /* Takes a line that holds one number from low to high. */
 status record_file_number(record_file *file, double low, double high, double *out,

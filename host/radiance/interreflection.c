@@ -8,12 +8,16 @@
  * make them. */
 enum { CHUNK = 1 << 10 };
 
+/* The tail needs five depths behind the first, which closes the series. */
+enum { TAIL_DEPTHS = 6 };
+
 /* Facets that pass light on together. */
 typedef struct chunk {
     uint32_t first;
     uint32_t last_depth; /* the last at which they do */
     shape_factor_points points;
     float_buffer arriving; /* what reaches them: (count, 2, spectra.sample_count) */
+    float_buffer kept;     /* and did two and four depths before, the same; empty: not asked for */
 } chunk;
 
 struct interreflection {
@@ -72,6 +76,7 @@ out:
 
 static void free_chunk(chunk *c)
 {
+    device_release(c->kept);
     device_release(c->arriving);
     device_release(c->points.met);
     device_release(c->points.hit);
@@ -146,6 +151,14 @@ static bool is_reached(const chunk *c, const float *reach)
     return false;
 }
 
+/* Makes room for what the depths beyond the last are found from. */
+static status make_tail(interreflection *f, chunk *c)
+{
+    if (c->last_depth < TAIL_DEPTHS) return STATUS_OK;
+    return device_allocate(device_of(f), &c->kept,
+                           (size_t)c->points.count * 2 * f->spectra.sample_count, NULL);
+}
+
 /* Finds how deep light goes.
  *   reach   shape (facet_count + 1): what it adds to facets at depth 2; overwritten */
 static status find_depth(interreflection *f, const float *reflectance, float *reach)
@@ -177,6 +190,7 @@ static status find_depth(interreflection *f, const float *reflectance, float *re
         TRY(device_download(device_of(f), after, all, reach));
         TRY(device_upload(device_of(f), before, all, reach));
     }
+    for (uint32_t i = 0; i < f->chunk_count; i++) TRY(make_tail(f, &f->chunks[i]));
 out:
     device_release(after);
     device_release(before);
@@ -231,9 +245,9 @@ static radiometry_record frame_of(const interreflection *f, const radiometry_rec
 }
 
 /* Writes the light of facets from what arrives there.
- *   hit, arriving   NULL: of the first facets, what closes it */
-static status write_light(const interreflection *f, const radiometry_record *frame,
-                          hit_record_buffer hit, float_buffer arriving)
+ *   c   NULL: of the first facets, what closes it */
+static status write_light(const interreflection *f, const radiometry_record *frame, const chunk *c,
+                          uint32_t keeps)
 {
     device_shape shape = shape1(frame->pixel_count);
 
@@ -241,12 +255,24 @@ static status write_light(const interreflection *f, const radiometry_record *fra
     return interreflection_run(
         device_of(f), shape,
         &(interreflection_args){.frame = *frame,
-                                .hit = hit,
+                                .hit = c ? c->points.hit : (hit_record_buffer){0},
                                 .surface = f->from.surfaces,
                                 .facet_background = f->light.facet_background,
                                 .spectra = f->spectra.tables,
-                                .arriving = arriving,
+                                .arriving = c ? c->arriving : (float_buffer){0},
+                                .keeps = keeps,
+                                .kept = c ? c->kept : (float_buffer){0},
                                 .light = f->light.light});
+}
+
+/* What a chunk keeps at a depth. */
+static uint32_t keeps_at(const chunk *c, uint32_t depth)
+{
+    if (!c->kept.memory) return INTERREFLECTION_KEEPS_NONE;
+    return depth == c->last_depth       ? INTERREFLECTION_ADDS_TAIL
+           : depth == c->last_depth - 2 ? INTERREFLECTION_KEEPS_MIDDLE
+           : depth == c->last_depth - 4 ? INTERREFLECTION_KEEPS_FIRST
+                                        : INTERREFLECTION_KEEPS_NONE;
 }
 
 /* Takes light one facet further. */
@@ -269,7 +295,7 @@ static status pass_on(const interreflection *f, const radiometry_record *frame, 
     for (uint32_t i = 0; i < f->chunk_count; i++) {
         const chunk *c = &f->chunks[i];
         const radiometry_record these = frame_of(f, frame, c->points.count);
-        if (depth <= c->last_depth) TRY(write_light(f, &these, c->points.hit, c->arriving));
+        if (depth <= c->last_depth) TRY(write_light(f, &these, c, keeps_at(c, depth)));
     }
 out:
     return rc;
@@ -298,7 +324,7 @@ status interreflection_set_sun(interreflection *f, const radiometry_record *fram
 
     if (memcmp(f->sun, frame->sun, sizeof f->sun) != 0) TRY(turn_sun(f, frame->sun));
     if (f->is_lit) goto out;
-    TRY(write_light(f, &all, (hit_record_buffer){0}, (float_buffer){0}));
+    TRY(write_light(f, &all, NULL, INTERREFLECTION_KEEPS_NONE));
     for (uint32_t d = 2; d <= f->depth; d++) TRY(pass_on(f, frame, d));
     f->is_lit = true;
 out:

@@ -26,7 +26,7 @@ typedef struct interreflection_scene {
 
 /* What is left out of the light between facets, as a fraction, where no depth is stated; and how deep that
  * goes at most. */
-#define INTERREFLECTION_REST 0.01
+#define INTERREFLECTION_REST 0.001
 #define INTERREFLECTION_DEPTH 64
 
 /* Samples the hemisphere above the middle of every facet, which tells how much sky it sees and what

@@ -1,7 +1,7 @@
 #include "scene/atmosphere_plan.h"
 #include "scene/scene_parts.h"
 #include "sky/uniform_atmosphere.h"
-#include "weather/weather_history.h"
+#include "station/weather_history.h"
 #include "weather/weather_place.h"
 #include "weather/weather_synthesis.h"
 

@@ -1,5 +1,7 @@
 #include "sensor/response.h"
 
+#include "files/csv_row.h"
+#include "files/heading.h"
 #include "files/record_file.h"
 
 #include <math.h>
@@ -11,7 +13,7 @@ static const double LEAST_UM = 0.2, MOST_UM = 50.0;
 #define NOISE_SHARE .05 /* of the peak, below 0 */
 
 /* A Gaussian's points: every 1/128 of its width, 2 widths to both sides. */
-enum { GAUSSIAN_PER_WIDTH = 128, GAUSSIAN_WIDTHS = 2, POINT_LIMIT = 1 << 16 };
+enum { GAUSSIAN_PER_WIDTH = 128, GAUSSIAN_WIDTHS = 2, POINT_LIMIT = 1 << 16, HEADING_SIZE = 64 };
 
 static status allocate(response **out, int limit)
 {
@@ -39,25 +41,55 @@ void response_free(response *r)
 
 typedef enum unit { UNIT_UM, UNIT_NM, UNIT_CM1, UNIT_COUNT } unit;
 
+/* Names of wavelengths, with their unit, and names of the response. */
+static const char *const unit_names[UNIT_COUNT] = {"|um|micron|microns|micrometer|micrometre|",
+                                                   "|nm|nanometer|nanometre|",
+                                                   "|cm1|cm-1|1/cm|cm^-1|"};
+static const char wavelength_names[] = "|wavelength|lambda|wl|wave|";
+static const char response_names[] =
+    "|response|relative response|spectral response|rsr|srf|transmission|transmittance|";
+
+/* The unit of `wavelength_um`, `Wavelength [nm]` or `wavenumber (cm-1)`; UNIT_COUNT for other names. */
+static unit unit_of(const char *field)
+{
+    char name[HEADING_SIZE], text[HEADING_SIZE];
+    int found = 0;
+
+    if (!heading_split(field, HEADING_SIZE, name, text)) return UNIT_COUNT;
+    char *suffix = strrchr(name, '_');
+    if (!*text && suffix) {
+        strcpy(text, suffix + 1);
+        *suffix = '\0';
+    }
+    if (!strncmp(text, "\xc2\xb5", 2) || !strncmp(text, "\xce\xbc", 2)) { /* micro, mu */
+        memmove(text + 1, text + 2, strlen(text + 1));
+        *text = 'u';
+    }
+    while (found < UNIT_COUNT && !heading_is_named(text, unit_names[found])) found++;
+    const bool is_number = heading_is_named(name, "|wavenumber|");
+    if (!is_number && !heading_is_named(name, wavelength_names)) return UNIT_COUNT;
+    return is_number == (found == UNIT_CM1) ? (unit)found : UNIT_COUNT;
+}
+
 static status read_unit(unit *out, record_file *file)
 {
-    static const char *const headings[UNIT_COUNT] = {
-        "wavelength_um,response", "wavelength_nm,response", "wavenumber_cm1,response"};
     static const char expected[] =
         "wavelength_um,response or wavelength_nm,response or wavenumber_cm1,response";
     status rc = STATUS_OK;
+    csv_row row = {0};
     const char *text;
-    char packed[64] = "";
-    int kind = 0;
+    char name[HEADING_SIZE] = "", unit_text[HEADING_SIZE];
 
     TRY(record_file_header(file, NULL));
     TRY(record_file_text(file, &text, expected));
-    for (size_t n = 0; *text && n + 1 < sizeof packed; text++)
-        if (*text != ' ') packed[n++] = *text;
-    while (kind < UNIT_COUNT && strcmp(packed, headings[kind])) kind++;
-    if (kind == UNIT_COUNT) rc = record_file_reject(file, "%s", expected);
-    *out = (unit)kind;
+    TRY(csv_row_split(&row, text, csv_separator(text)));
+    record_file_separate(file, csv_separator(text));
+    *out = unit_of(csv_row_field(&row, 0));
+    heading_split(csv_row_field(&row, 1), HEADING_SIZE, name, unit_text);
+    if (*out == UNIT_COUNT || row.count != 2 || !heading_is_named(name, response_names))
+        rc = record_file_reject(file, "%s", expected);
 out:
+    csv_row_free(&row);
     return rc;
 }
 

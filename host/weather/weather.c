@@ -7,6 +7,7 @@
 #include "weather/weather_table.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -115,6 +116,12 @@ void weather_free(weather *w)
     free(w);
 }
 
+/* Flags of missing values that lie in the ranges of temperatures. */
+static bool is_flag(double celsius)
+{
+    return celsius == -99.0 || celsius == -99.9 || celsius == -99.99;
+}
+
 static status check_ranges(const record_file *file, const double value[COLUMNS])
 {
     for (int i = 0; i < COLUMNS; i++) {
@@ -122,6 +129,9 @@ static status check_ranges(const record_file *file, const double value[COLUMNS])
             return record_file_reject(file, "%s from %g to %g in column %d, not %g",
                                       columns[i].name, columns[i].low, columns[i].high, i + 1,
                                       value[i]);
+        if ((i == AIR_TEMPERATURE || i == DEW_POINT) && is_flag(value[i]))
+            return record_file_reject(file, "%s in column %d, not %g, a flag of missing values",
+                                      columns[i].name, i + 1, value[i]);
         if (columns[i].is_code && value[i] != floor(value[i]))
             return record_file_reject(file, "%s in column %d, a whole number, not %g",
                                       columns[i].name, i + 1, value[i]);

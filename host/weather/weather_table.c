@@ -1,14 +1,17 @@
 #include "weather/weather_table.h"
 
+#include "base/array.h"
+#include "files/column.h"
+#include "files/csv_row.h"
+#include "files/heading.h"
 #include "files/record_file.h"
-#include "kernels/constants.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
-enum { TABLE_COLUMNS = 13, FIELD_SIZE = 64, LONGEST_TABLE = 1000000, UNITS = 4 };
+enum { FIELD_SIZE = 64, LONGEST_TABLE = 1000000 };
 
 enum {
     TIME,
@@ -23,287 +26,368 @@ enum {
     LONGWAVE_DOWN,
     LONGWAVE_UP,
     SURFACE,
-    RAIN
+    RAIN,
+    TABLE_COLUMNS
 };
 
-typedef struct table_unit {
-    const char *name;
-    double scale, offset; /* SI = scale x value + offset */
-} table_unit;
-
-#define KELVIN ((double)ZERO_CELSIUS_K)
-#define CELSIUS_OR_KELVIN                                                                          \
-    {                                                                                              \
-        {"C", 1.0, KELVIN},                                                                        \
-        {                                                                                          \
-            "K", 1.0, 0.0                                                                          \
-        }                                                                                          \
-    }
-#define FLUX                                                                                       \
-    {                                                                                              \
-        {                                                                                          \
-            "W/m2", 1.0, 0.0                                                                       \
-        }                                                                                          \
-    }
-
-/* Ranges in SI; net radiometers read a little below 0 at night. */
-static const struct {
-    const char *name;
-    double low, high;
-    table_unit unit[UNITS];
-} columns[TABLE_COLUMNS] = {
-    [TIME] = {"time", -1e6, 1e6, {{"h", 1.0, 0.0}}},
-    [AIR] = {"air_temperature", 173.0, 343.0, CELSIUS_OR_KELVIN},
-    [PRESSURE] = {"pressure",
-                  3e4,
-                  1.1e5,
-                  {{"Pa", 1.0, 0.0}, {"hPa", 100.0, 0.0}, {"mbar", 100.0, 0.0}, {"kPa", 1e3, 0.0}}},
-    [WIND] = {"wind", 0.0, 100.0, {{"m/s", 1.0, 0.0}}},
-    [HUMIDITY] = {"relative_humidity", 0.0, 1.1, {{"%", 0.01, 0.0}, {"1", 1.0, 0.0}}},
-    [DEW_POINT] = {"dew_point", 153.0, 343.0, CELSIUS_OR_KELVIN},
-    [DIRECT] = {"direct", -50.0, 1500.0, FLUX},
-    [DIFFUSE] = {"diffuse", -50.0, 1500.0, FLUX},
-    [GLOBAL] = {"global", -50.0, 1800.0, FLUX},
-    [LONGWAVE_DOWN] = {"longwave_down", 1.0, 1000.0, FLUX},
-    [LONGWAVE_UP] = {"longwave_up", 1.0, 2000.0, FLUX},
-    [SURFACE] = {"surface_temperature", 150.0, 400.0, CELSIUS_OR_KELVIN},
-    [RAIN] = {"rain", 0.0, 1000.0, {{"mm/h", 1e-3 / 3600.0, 0.0}}},
+/* Net radiometers read a little below 0 at night. No range has a flag in it that is not also a value. */
+static const column columns[TABLE_COLUMNS] = {
+    [TIME] = {"time", "h", -1, -1e6, 1e6, false},
+    [AIR] = {"air_temperature", "C", -1, -95, 70, false},
+    [PRESSURE] = {"pressure", "hPa", -1, 300, 1100, false},
+    [WIND] = {"wind", "m/s", -1, 0, 100, false},
+    [HUMIDITY] = {"relative_humidity", "%", -1, 0, 110, false},
+    [DEW_POINT] = {"dew_point", "C", -1, -95, 70, false},
+    [DIRECT] = {"direct", "W/m2", -1, -50, 1500, false},
+    [DIFFUSE] = {"diffuse", "W/m2", -1, -50, 1500, false},
+    [GLOBAL] = {"global", "W/m2", -1, -50, 1800, false},
+    [LONGWAVE_DOWN] = {"longwave_down", "W/m2", -1, 1, 1000, false},
+    [LONGWAVE_UP] = {"longwave_up", "W/m2", -1, 1, 2000, false},
+    [SURFACE] = {"surface_temperature", "C", -1, -95, 127, false},
+    [RAIN] = {"rain", "mm/h", -1, 0, 1000, false},
 };
 
-/* Where the columns stand in the file. */
-typedef struct layout {
+typedef struct row {
+    int line;
+    double value[TABLE_COLUMNS];
+} row;
+
+typedef struct reader {
+    const char *path;
+    record_file *file;
+    csv_row fields;
+    char separator;
+    column_place place[TABLE_COLUMNS]; /* by column */
+    column_gaps gaps;
     size_t count;
-    int column[TABLE_COLUMNS];
-    const table_unit *unit[TABLE_COLUMNS]; /* by column; NULL: absent */
-} layout;
+    row *row; /* shape (count) */
+    double interval_h;
+} reader;
 
 static int find_column(const char *name)
 {
     for (int i = 0; i < TABLE_COLUMNS; i++)
-        if (!strcmp(columns[i].name, name)) return i;
+        if (!strcasecmp(columns[i].name, name)) return i;
     return -1;
 }
 
-static const table_unit *find_unit(int column, const char *name)
-{
-    for (int i = 0; i < UNITS && columns[column].unit[i].name; i++)
-        if (!strcmp(columns[column].unit[i].name, name)) return &columns[column].unit[i];
-    return NULL;
-}
-
 /* Takes `name [unit]`. */
-static status add_field(layout *l, const record_file *file, const char *field)
+static status add_field(reader *r, size_t field)
 {
     status rc = STATUS_OK;
-    char name[FIELD_SIZE], unit[FIELD_SIZE];
-    int end = 0;
+    const char *text = r->fields.field[field];
+    char name[FIELD_SIZE], unit_text[FIELD_SIZE];
 
-    if (sscanf(field, " %63[a-z_] [%63[^]]] %n", name, unit, &end) < 2 || field[end])
-        TRY(record_file_reject(file, "columns as name [unit], not '%s'", field));
-    const int column = find_column(name);
-    if (column < 0)
-        TRY(record_file_reject(file, "known columns, not '%s': see docs/file-formats.md", name));
-    if (l->unit[column]) TRY(record_file_reject(file, "one column '%s', not two", name));
-    l->unit[column] = find_unit(column, unit);
-    if (!l->unit[column])
-        TRY(record_file_reject(file, "another unit of %s, as [%s], not [%s]", name,
-                               columns[column].unit[0].name, unit));
-    l->column[l->count++] = column;
+    if (!heading_split(text, FIELD_SIZE, name, unit_text) || !*unit_text)
+        TRY(record_file_reject(r->file, "columns as name [unit], not '%.60s'", text));
+    const int c = find_column(name);
+    if (c < 0)
+        TRY(record_file_reject(r->file, "known columns, not '%s': see docs/file-formats.md", name));
+    if (r->place[c].column) TRY(record_file_reject(r->file, "one column '%s', not two", name));
+    const unit *here = unit_find(unit_text), *usual = unit_find(columns[c].unit);
+    if (!here || strcmp(here->quantity, usual->quantity))
+        TRY(record_file_reject(r->file, "another unit of %s, as [%s], not [%s]", name,
+                               columns[c].unit, unit_text));
+    r->place[c] = column_place_at(&columns[c], here, field);
 out:
     return rc;
 }
 
-static status check_layout(const layout *l, const record_file *file)
+static bool has(const reader *r, int c)
+{
+    return r->place[c].column;
+}
+
+static status check_columns(const reader *r)
 {
     status rc = STATUS_OK;
     const int needed[] = {TIME, AIR, PRESSURE, WIND};
 
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
-        if (!l->unit[needed[i]])
-            TRY(record_file_reject(file, "a column '%s [%s]'", columns[needed[i]].name,
-                                   columns[needed[i]].unit[0].name));
-    if (!l->unit[HUMIDITY] == !l->unit[DEW_POINT])
-        TRY(record_file_reject(file, "a column 'relative_humidity [%%]' or 'dew_point [C]'"));
-    if (!l->unit[DIRECT] != !l->unit[DIFFUSE] || !l->unit[DIRECT] == !l->unit[GLOBAL])
-        TRY(record_file_reject(file,
+        if (!has(r, needed[i]))
+            TRY(record_file_reject(r->file, "a column '%s [%s]'", columns[needed[i]].name,
+                                   columns[needed[i]].unit));
+    if (!has(r, HUMIDITY) && !has(r, DEW_POINT))
+        TRY(record_file_reject(r->file, "a column 'relative_humidity [%%]' or 'dew_point [C]'"));
+    if (!has(r, GLOBAL) && !(has(r, DIRECT) && has(r, DIFFUSE)))
+        TRY(record_file_reject(r->file,
                                "columns 'direct [W/m2]' and 'diffuse [W/m2]', or 'global [W/m2]'"));
 out:
     return rc;
 }
 
-static status read_header(layout *l, record_file *file)
+static status read_header(reader *r)
 {
     status rc = STATUS_OK;
-    char field[FIELD_SIZE * 2];
-    const char *text;
+    static const char expected[] = "a header: time [h],air_temperature [C],...";
+    const char *next = record_file_peek(r->file);
+    char line[1024] = "";
 
-    TRY(record_file_text(file, &text, "a header: time [h],air_temperature [C],..."));
-    for (const char *at = text; at;) {
-        const size_t length = strcspn(at, ",");
-        if (length >= sizeof field || l->count == TABLE_COLUMNS)
-            TRY(record_file_reject(file, "columns as name [unit], each once"));
-        memcpy(field, at, length);
-        field[length] = '\0';
-        TRY(add_field(l, file, field));
-        at = at[length] ? at + length + 1 : NULL;
-    }
-    TRY(check_layout(l, file));
+    if (next) memcpy(line, next, strnlen(next, sizeof line - 1));
+    line[strcspn(line, "\n")] = '\0';
+    r->separator = csv_separator(line);
+    TRY(csv_row_take(&r->fields, r->file, r->separator, expected));
+    for (size_t i = 0; i < r->fields.count; i++) TRY(add_field(r, i));
+    TRY(check_columns(r));
 out:
     return rc;
 }
 
-static weather_record record_of(const layout *l, const double value[TABLE_COLUMNS])
+static status read_row(reader *r)
 {
-    const double air_k = value[AIR];
-    const bool has_dew = l->unit[DEW_POINT];
-    const double dew_k =
-        has_dew ? value[DEW_POINT] : weather_dew_point_k(air_k, fmin(1.0, value[HUMIDITY]));
-    const double humidity = weather_saturation_pa(dew_k) / weather_saturation_pa(air_k);
+    status rc = STATUS_OK;
+    row *now;
+
+    if (r->count == LONGEST_TABLE)
+        TRY(record_file_reject(r->file, "at most %d records", LONGEST_TABLE));
+    NEED(array_add(&r->row, r->count, sizeof *r->row), STATUS_MEMORY,
+         "no memory for %zu weather records", r->count + 1);
+    now = &r->row[r->count];
+    TRY(csv_row_take(&r->fields, r->file, r->separator, "a record"));
+    now->line = record_file_line(r->file);
+    for (int c = 0; c < TABLE_COLUMNS; c++)
+        TRY(column_read(&now->value[c], &r->place[c], csv_row_field(&r->fields, r->place[c].field),
+                        r->file, &r->gaps));
+    if (isnan(now->value[TIME])) TRY(record_file_reject(r->file, "a time"));
+    if (r->count > 0 && !(now->value[TIME] > now[-1].value[TIME]))
+        TRY(record_file_reject(r->file, "a time after %.4g h", now[-1].value[TIME]));
+    r->count++;
+out:
+    return rc;
+}
+
+/* The mean of the steps that are no gaps: times may be rounded. */
+static status find_interval(reader *r)
+{
+    status rc = STATUS_OK;
+    double least_h = INFINITY, sum_h = 0.0, number = 0.0;
+
+    for (size_t i = 1; i < r->count; i++)
+        least_h = fmin(least_h, r->row[i].value[TIME] - r->row[i - 1].value[TIME]);
+    for (size_t i = 1; i < r->count; i++) {
+        const double step_h = r->row[i].value[TIME] - r->row[i - 1].value[TIME];
+        if (step_h > 1.25 * least_h) continue;
+        sum_h += step_h;
+        number += 1.0;
+    }
+    const double steps = round(number / sum_h);
+    NEED(steps >= 1.0 && steps <= 3600.0 && fabs(sum_h / number * steps - 1.0) <= 0.01,
+         STATUS_FORMAT,
+         "%s:%d: found times %.4g h apart, expected an interval that divides an hour", r->path,
+         r->row[1].line, least_h);
+    r->interval_h = 1.0 / steps;
+out:
+    return rc;
+}
+
+/* Where a row stands in the series of even steps. */
+static status place_row(const reader *r, size_t i, size_t *out)
+{
+    status rc = STATUS_OK;
+    const double hours = r->row[i].value[TIME] - r->row[0].value[TIME];
+    const double at = round(hours / r->interval_h);
+
+    NEED(fabs(hours - at * r->interval_h) <= fmin(0.0051, 0.3 * r->interval_h), STATUS_FORMAT,
+         "%s:%d: found the time %.6g h, expected %.4g h, as its interval of %.4g h has it", r->path,
+         r->row[i].line, r->row[i].value[TIME], r->row[0].value[TIME] + at * r->interval_h,
+         r->interval_h);
+    NEED(at < LONGEST_TABLE, STATUS_FORMAT, "%s:%d: expected at most %d records", r->path,
+         r->row[i].line, LONGEST_TABLE);
+    *out = (size_t)at;
+out:
+    return rc;
+}
+
+/* Gives absent rows their place, without values. */
+static status even_out(reader *r)
+{
+    status rc = STATUS_OK;
+    size_t last = 0, at;
+    row *even = NULL;
+
+    TRY(place_row(r, r->count - 1, &last));
+    even = malloc((last + 1) * sizeof *even);
+    NEED(even, STATUS_MEMORY, "no memory for %zu weather records", last + 1);
+    for (size_t i = 0; i <= last; i++) {
+        for (int c = 0; c < TABLE_COLUMNS; c++) even[i].value[c] = NAN;
+        even[i].value[TIME] = r->row[0].value[TIME] + (double)i * r->interval_h;
+    }
+    for (size_t i = 0; i < r->count; i++) {
+        TRY(place_row(r, i, &at));
+        memcpy(&even[at].value[AIR], &r->row[i].value[AIR],
+               (TABLE_COLUMNS - AIR) * sizeof *even[at].value);
+    }
+    free(r->row);
+    r->row = even;
+    even = NULL;
+    r->count = last + 1;
+out:
+    free(even);
+    return rc;
+}
+
+/* Fills rows `from` to before `to` between those that have a value; at an end, with the nearest. */
+static void bridge(reader *r, int c, size_t from, size_t to)
+{
+    const double *before = from > 0 ? &r->row[from - 1].value[c] : &r->row[to].value[c];
+    const double *after = to < r->count ? &r->row[to].value[c] : before;
+    const double a = *before, b = *after;
+
+    for (size_t i = from; i < to; i++)
+        r->row[i].value[c] = a + (b - a) * (double)(i - from + 1) / (double)(to - from + 1);
+}
+
+/* What a record cannot be without. */
+static bool is_needed(const reader *r, int c)
+{
+    return has(r, c) && c != LONGWAVE_DOWN && c != RAIN && c != TIME;
+}
+
+static status fill_gaps(reader *r, int c)
+{
+    status rc = STATUS_OK;
+    const size_t most = (size_t)floor(1.0 / r->interval_h + 1e-6);
+
+    for (size_t from = 0, to; from < r->count; from = to + 1) {
+        for (; from < r->count && !isnan(r->row[from].value[c]); from++) continue;
+        for (to = from; to < r->count && isnan(r->row[to].value[c]); to++) continue;
+        if (from == to) break;
+        if (to - from <= most && to - from < r->count)
+            bridge(r, c, from, to);
+        else
+            NEED(!is_needed(r, c), STATUS_FORMAT,
+                 "%s: no %s at %.4g h, until %.4g h: expected gaps of an hour at most", r->path,
+                 columns[c].name, r->row[from].value[TIME], r->row[to - 1].value[TIME]);
+    }
+out:
+    return rc;
+}
+
+/* Where one of two is there, the other follows from it or is not needed. */
+static void derive(row *now)
+{
+    double *v = now->value;
+
+    if (isnan(v[DEW_POINT]) && !isnan(v[AIR]) && !isnan(v[HUMIDITY]))
+        v[DEW_POINT] = weather_dew_point_k(v[AIR], fmin(1.0, v[HUMIDITY]));
+}
+
+static double at_least_0(double value)
+{
+    return isnan(value) ? 0.0 : fmax(0.0, value);
+}
+
+static weather_record record_of(const double v[TABLE_COLUMNS])
+{
+    const double humidity = weather_saturation_pa(v[DEW_POINT]) / weather_saturation_pa(v[AIR]);
+    const bool is_global = isnan(v[DIRECT]) || isnan(v[DIFFUSE]);
 
     return (weather_record){
-        .time_h = value[TIME],
-        .air_temperature_k = air_k,
-        .pressure_pa = value[PRESSURE],
+        .time_h = v[TIME],
+        .air_temperature_k = v[AIR],
+        .pressure_pa = v[PRESSURE],
         .relative_humidity = fmin(1.0, humidity),
-        .dew_point_k = dew_k,
-        .wind_m_s = value[WIND],
-        .direct_w_m2 = fmax(0.0, value[DIRECT]),
-        .diffuse_w_m2 = fmax(0.0, value[DIFFUSE]) + fmax(0.0, value[GLOBAL]),
+        .dew_point_k = v[DEW_POINT],
+        .wind_m_s = v[WIND],
+        .direct_w_m2 = is_global ? 0.0 : at_least_0(v[DIRECT]),
+        .diffuse_w_m2 = at_least_0(v[is_global ? GLOBAL : DIFFUSE]),
         .sky_exposure = 1.0,
-        .longwave_w_m2 = value[LONGWAVE_DOWN],
-        .precipitation_type = value[RAIN] > 0.0,
-        .precipitation_m_s = value[RAIN],
-        .precipitation_temperature_k = air_k,
+        .longwave_w_m2 = at_least_0(v[LONGWAVE_DOWN]),
+        .precipitation_type = v[RAIN] > 0.0,
+        .precipitation_m_s = at_least_0(v[RAIN]),
+        .precipitation_temperature_k = v[AIR],
     };
 }
 
-static status read_row(double value[TABLE_COLUMNS], const layout *l, record_file *file)
+static status allocate(weather_table *t, const reader *r, size_t count)
 {
     status rc = STATUS_OK;
-    double found[TABLE_COLUMNS];
-    char expected[64];
 
-    snprintf(expected, sizeof expected, "%zu numbers, as the header names", l->count);
-    TRY(record_file_numbers(file, l->count, found, expected));
-    for (size_t i = 0; i < l->count; i++) {
-        const int c = l->column[i];
-        value[c] = l->unit[c]->scale * found[i] + l->unit[c]->offset;
-        if (!(value[c] >= columns[c].low && value[c] <= columns[c].high))
-            TRY(record_file_reject(file,
-                                   "%s in [%s] within its range, not %g: leave out or fill "
-                                   "what is missing",
-                                   columns[c].name, l->unit[c]->name, found[i]));
+    TRY(weather_allocate(&t->history, count, 3600.0 * r->interval_h));
+    t->is_global = calloc(count, sizeof *t->is_global);
+    NEED(t->is_global, STATUS_MEMORY, "no memory for %zu weather records", count);
+    t->surface_k = has(r, SURFACE) ? malloc(count * sizeof *t->surface_k) : NULL;
+    t->longwave_up_w_m2 = has(r, LONGWAVE_UP) ? malloc(count * sizeof *t->longwave_up_w_m2) : NULL;
+    NEED((t->surface_k || !has(r, SURFACE)) && (t->longwave_up_w_m2 || !has(r, LONGWAVE_UP)),
+         STATUS_MEMORY, "no memory for %zu weather records", count);
+out:
+    return rc;
+}
+
+/* A single day, with or without the midnight that ends it, stands twice. */
+static status make_records(weather_table *t, const reader *r)
+{
+    status rc = STATUS_OK;
+    const size_t day = (size_t)lround(24.0 / r->interval_h);
+    const size_t more = r->count == day || r->count == day + 1 ? day : 0;
+
+    TRY(allocate(t, r, r->count + more));
+    for (size_t i = 0; i < t->history->count; i++) {
+        const double *v = r->row[i < more ? i : i - more].value;
+        t->history->record[i] = record_of(v);
+        t->history->record[i].time_h = r->row[0].value[TIME] + (double)i * r->interval_h;
+        t->is_global[i] = isnan(v[DIRECT]) || isnan(v[DIFFUSE]);
+        if (t->surface_k) t->surface_k[i] = v[SURFACE];
+        if (t->longwave_up_w_m2) t->longwave_up_w_m2[i] = v[LONGWAVE_UP];
     }
 out:
     return rc;
 }
 
-/* Grows by doubling: the length is not stated. */
-static status make_room(weather_table *t, size_t *room)
+/* Light is complete if global is, or both others. */
+static status fill_light(reader *r)
 {
     status rc = STATUS_OK;
-    const size_t more = *room ? 2 * *room : 128;
-    weather_record *record = realloc(t->history->record, more * sizeof *record);
+    bool is_whole = has(r, DIRECT) && has(r, DIFFUSE);
 
-    NEED(record, STATUS_MEMORY, "no memory for %zu weather records", more);
-    t->history->record = record;
-    double *surface_k = realloc(t->surface_k, more * sizeof *surface_k);
-    NEED(surface_k, STATUS_MEMORY, "no memory for %zu weather records", more);
-    t->surface_k = surface_k;
-    double *up = realloc(t->longwave_up_w_m2, more * sizeof *up);
-    NEED(up, STATUS_MEMORY, "no memory for %zu weather records", more);
-    t->longwave_up_w_m2 = up;
-    *room = more;
+    for (size_t i = 0; i < r->count && has(r, GLOBAL); i++)
+        is_whole = is_whole && !isnan(r->row[i].value[DIRECT]) && !isnan(r->row[i].value[DIFFUSE]);
+    if (is_whole || !has(r, GLOBAL)) {
+        TRY(fill_gaps(r, DIRECT));
+        TRY(fill_gaps(r, DIFFUSE));
+    } else {
+        TRY(fill_gaps(r, GLOBAL));
+    }
 out:
     return rc;
 }
 
-/* Takes the interval from the first two records, and holds the others to it. */
-static status check_time(weather *w, size_t i, const record_file *file)
+static status read_rows(reader *r)
 {
     status rc = STATUS_OK;
-    const double first_h = w->record[0].time_h;
+    static const int whole[] = {AIR,           PRESSURE,    WIND,    DEW_POINT,
+                                LONGWAVE_DOWN, LONGWAVE_UP, SURFACE, RAIN};
 
-    if (i == 1) {
-        const double step_h = w->record[1].time_h - first_h;
-        const double steps = step_h > 0.0 ? round(1.0 / step_h) : 0.0;
-        if (steps < 1.0 || steps > 3600.0 || fabs(step_h * steps - 1.0) > 2e-3)
-            TRY(record_file_reject(file, "a time that divides an hour after the last"));
-        w->interval_s = 3600.0 / steps;
-    }
-    const double time_h = first_h + (double)i * w->interval_s / 3600.0;
-    if (fabs(w->record[i].time_h - time_h) > fmin(0.0051, 0.3 * w->interval_s / 3600.0))
-        TRY(record_file_reject(file, "the time %.4g h, one interval after the last", time_h));
-    w->record[i].time_h = time_h;
+    while (!record_file_at_end(r->file)) TRY(read_row(r));
+    if (r->count < 2) TRY(record_file_reject(r->file, "two records or more"));
+    column_gaps_tell(&r->gaps, r->path);
+    TRY(find_interval(r));
+    TRY(even_out(r));
+    for (size_t i = 0; i < r->count; i++) derive(&r->row[i]);
+    if (!has(r, DEW_POINT)) r->place[DEW_POINT] = column_place_at(&columns[DEW_POINT], NULL, 0);
+    for (size_t k = 0; k < sizeof whole / sizeof *whole; k++) TRY(fill_gaps(r, whole[k]));
+    TRY(fill_light(r));
 out:
     return rc;
-}
-
-static status read_rows(weather_table *t, const layout *l, record_file *file)
-{
-    status rc = STATUS_OK;
-    weather *w = t->history;
-    size_t room = 0;
-
-    w->count = 0;
-    while (!record_file_at_end(file)) {
-        double value[TABLE_COLUMNS] = {0};
-        if (w->count == LONGEST_TABLE)
-            TRY(record_file_reject(file, "at most %d records", LONGEST_TABLE));
-        /* Twice: a single day is repeated. */
-        if (2 * w->count + 2 > room) TRY(make_room(t, &room));
-        TRY(read_row(value, l, file));
-        w->record[w->count] = record_of(l, value);
-        t->surface_k[w->count] = value[SURFACE];
-        t->longwave_up_w_m2[w->count] = value[LONGWAVE_UP];
-        TRY(check_time(w, w->count, file));
-        w->count++;
-    }
-    if (w->count < 2) TRY(record_file_reject(file, "two records or more"));
-out:
-    return rc;
-}
-
-static void repeat_day(weather_table *t)
-{
-    weather *w = t->history;
-    const size_t day = (size_t)lround(86400.0 / w->interval_s);
-
-    if (w->count != day) return;
-    for (size_t i = 0; i < day; i++) {
-        w->record[day + i] = w->record[i];
-        w->record[day + i].time_h += 24.0;
-        t->surface_k[day + i] = t->surface_k[i];
-        t->longwave_up_w_m2[day + i] = t->longwave_up_w_m2[i];
-    }
-    w->count = 2 * day;
 }
 
 status weather_table_read(weather_table *out, const char *path)
 {
     status rc = STATUS_OK;
-    record_file *file = NULL;
+    reader r = {.path = path};
     weather_table t = {0};
-    layout l = {0};
 
-    TRY(record_file_open(&file, path));
-    TRY(read_header(&l, file));
-    TRY(weather_allocate(&t.history, 1, 3600.0));
-    TRY(read_rows(&t, &l, file));
-    repeat_day(&t);
-    if (!l.unit[SURFACE]) {
-        free(t.surface_k);
-        t.surface_k = NULL;
-    }
-    if (!l.unit[LONGWAVE_UP]) {
-        free(t.longwave_up_w_m2);
-        t.longwave_up_w_m2 = NULL;
-    }
+    TRY(record_file_open(&r.file, path));
+    TRY(read_header(&r));
+    TRY(read_rows(&r));
+    TRY(make_records(&t, &r));
     *out = t;
     t = (weather_table){0};
 out:
     weather_table_free(&t);
-    record_file_free(file);
+    csv_row_free(&r.fields);
+    free(r.row);
+    record_file_free(r.file);
     return rc;
 }
 
@@ -312,5 +396,6 @@ void weather_table_free(weather_table *table)
     weather_free(table->history);
     free(table->surface_k);
     free(table->longwave_up_w_m2);
+    free(table->is_global);
     *table = (weather_table){0};
 }

@@ -1,4 +1,16 @@
 #include "kernels/radiance/incident_hemisphere.h"
+#include "kernels/radiance/series_tail.h"
+
+/* Keeps what arrives at one of the last depths; at the last, returns what those beyond would bring.
+ *   kept   (2, row) */
+static inline spectrum keep_or_end(uint keeps, global float *kept, uint row, uint block,
+                                   spectrum arrives)
+{
+    if (keeps == INTERREFLECTION_ADDS_TAIL)
+        return series_tail(spectrum_load(kept, block), spectrum_load(kept + row, block), arrives);
+    spectrum_store(arrives, keeps == INTERREFLECTION_KEEPS_FIRST ? kept : kept + row, block);
+    return (spectrum)0.0f;
+}
 
 /* What facets get besides their fraction of the sky: how their lobe takes the sun, and by how much the
  * radiance that reaches them differs from what incident.h closes it with. Exact mode.
@@ -7,12 +19,14 @@
  * facet_background: per facet
  * arriving: (pixel_count, 2, sample_count): radiance of sky and of facets that reaches these; NULL: as
  *   closed
+ * keeps: INTERREFLECTION_KEEPS_..., what is done with
+ * kept: (pixel_count, 2, sample_count): what reached these four and two depths before; NULL: nothing
  * light: (facets, LIGHT_ROWS, sample_count) */
 kernel void interreflection(const radiometry_record frame, OPTIONAL global const hit_record *hit,
                             TABLES(SURFACE_TABLES),
                             global const background_record *facet_background,
                             TABLES(SPECTRA_TABLES), OPTIONAL global const float *arriving,
-                            global float *light)
+                            const uint keeps, OPTIONAL global float *kept, global float *light)
 {
     const uint i = get_global_id(0), row = frame.sample_count;
     if (i >= frame.pixel_count) return;
@@ -44,6 +58,8 @@ kernel void interreflection(const radiometry_record frame, OPTIONAL global const
             global const float *from_sky = arriving + (size_t)i * 2u * row;
             more = spectrum_load(from_sky, block) + spectrum_load(from_sky + row, block) - closed;
         }
+        if (keeps != INTERREFLECTION_KEEPS_NONE)
+            more += keep_or_end(keeps, kept + (size_t)i * 2u * row, row, block, closed + more);
         spectrum_store(of_sun, to + LIGHT_LOBE * row, block);
         spectrum_store(more, to + LIGHT_EXTRA * row, block);
         spectrum_store(closed + more, to + LIGHT_ARRIVING * row, block);

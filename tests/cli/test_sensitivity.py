@@ -142,6 +142,18 @@ def test_a_broken_list_of_objects_is_refused_at_its_line(program, june, tmp_path
     assert "o.csv:" in done.stderr and text in done.stderr
 
 
+def test_objects_are_separated_values_like_any_other(program, june, tmp_path):
+    head = ["material", "thickness_cm", "slope_deg", "azimuth_deg", "power_w_m2"]
+    row = ["Asphalt", "2.4", "0", "0", "0"]
+    texts = []
+    for head_text, row_text in ((",".join(head), ",".join(row)), ("; ".join(head), " ; ".join(row)),
+                                ('","'.join(head).join('""'), '","'.join(row).join('""') + ",,")):
+        (tmp_path / "o.csv").write_bytes(f"\ufeff{head_text}\r\n{row_text}\r\n".encode())
+        texts.append(study(program, june, "--objects", tmp_path / "o.csv", "--runs", "2").stdout)
+
+    assert texts[0].startswith("# 1 objects") and texts[1:] == texts[:1] * 2
+
+
 def test_objects_without_their_header_are_refused(program, june, tmp_path):
     (tmp_path / "o.csv").write_text("Asphalt,2.4,0,0,0\n")
 

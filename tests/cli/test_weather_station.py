@@ -1,55 +1,9 @@
 """Weather from EPW years and SURFRAD days: files in their layouts with values that are known."""
 import datetime
 
-import numpy as np
 import pytest
-
-PLACE = {"latitude_deg": 43.083, "longitude_deg": -77.667}
-SITE = {**PLACE, "time": "1992-06-23T15:00:00-04:00"}
-MATTER = {"name": "wall", "emissivity": 0.93, "density_kg_m3": 2114.0,
-          "specific_heat_j_kg_k": 920.0, "conductivity_w_m_k": 0.689, "thickness_cm": 5.0,
-          "exposed_area": -0.5}
-LANGLEY_PER_HOUR_W_M2 = 41840 / 3600
-TIME, AIR, PRESSURE, HUMIDITY, DEW, WIND, DIRECT, DIFFUSE, EXPOSURE, CLOUD, _, RAIN, _ = range(13)
-
-
-def check(program, folder, name, **site):
-    path = program.write_scene(folder, site={**SITE, **site}, weather={"history": name},
-                               material=[MATTER], render={"thermal": "therm"})
-    return program.run("weather", path, "-o", folder / "made.wth")
-
-
-def history(program, folder, name, **site):
-    done = check(program, folder, name, **site)
-    assert done.returncode == 0, done.stderr
-    return np.loadtxt(folder / "made.wth", skiprows=1), done.stderr
-
-
-# EPW: hours 1..24 of local standard time, 5 h behind UTC; the scene's clock is 4 h behind.
-def epw_row(date, hour, **change):
-    value = {"year": date.year, "air": 10 + hour / 2, "dew": 5.0, "pressure": 100000, "infrared": 330,
-             "direct": 500 if 7 <= hour <= 18 else 0, "diffuse": 90 if 7 <= hour <= 18 else 0,
-             "wind": 3.0, "cover": 2, "rain": 0.0, **change}
-    field = ["0"] * 35
-    field[:6] = [str(value["year"]), str(date.month), str(date.day), str(hour), "60", "?9?9?9E0"]
-    for place, name in ((6, "air"), (7, "dew"), (9, "pressure"), (12, "infrared"), (14, "direct"),
-                        (15, "diffuse"), (21, "wind"), (23, "cover"), (33, "rain")):
-        field[place] = str(value[name])
-    return ",".join(field)
-
-
-def epw_text(first=(1992, 6, 21), days=4, change=None, place=(43.1, -77.7)):
-    """`change`: values by (day of the month, hour)."""
-    rows = []
-    for i in range(days):
-        date = datetime.date(*first) + datetime.timedelta(i)
-        rows += [epw_row(date, hour, **(change or {}).get((date.day, hour), {}))
-                 for hour in range(1, 25)]
-    return "\r\n".join([
-        f"LOCATION,Rochester,NY,USA,hand,725290,{place[0]},{place[1]},-5.0,169.0",
-        "DESIGN CONDITIONS,0", "TYPICAL/EXTREME PERIODS,0", "GROUND TEMPERATURES,0",
-        "HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0", "COMMENTS 1,by hand", "COMMENTS 2,",
-        "DATA PERIODS,1,1,Data,Sunday, 6/21, 6/24", *rows]) + "\r\n"
+from station_files import (AIR, CLOUD, DEW, DIFFUSE, DIRECT, EXPOSURE, LANGLEY_PER_HOUR_W_M2, MATTER,
+                           PRESSURE, RAIN, SITE, TIME, WIND, check, epw_text, history, surfrad_text)
 
 
 def test_an_epw_hour_stands_at_its_end_by_the_scene_s_clock(program, tmp_path):
@@ -155,11 +109,10 @@ def test_weather_of_a_far_place_is_warned_about_by_its_name(program, tmp_path, n
     ("-5.0,169.0", "west,169.0", "year.epw:1:"),
     ("DATA PERIODS,1,1", "DATA PERIODS,1,4", "one record an hour"),
     ("1992,6,22,3,60", "1992,13,22,3,60", "year.epw:35: found '1992,13,22,3,60"),
-    ("1992,6,22,3,60", "1992,6,22,25,60", "an hour from 1 to 24, not '25'"),
+    ("1992,6,22,3,60", "1992,6,22,25,60", "an hour from 0 to 24, not '25'"),
     ("1992,6,22,3,60", "1992,2,30,3,60", "a day of the month from 1 to 29, not '30'"),
     ("1992,6,22,3,60", "1992,6,31,3,60", "a day of the month from 1 to 30, not '31'"),
     ("1992,6,22,3,60,?9?9?9E0,11.5", "1992,6,22,3,60,?9?9?9E0,cold", "not 'cold'"),
-    ("1992,6,22,3,60,?9?9?9E0,11.5", "1992,6,22,3,60,?9?9?9E0,75", "from -90 to 70 in field 7"),
     ("1992,6,22,3,60,?9?9?9E0,11.5", "1992,6,22,3\r\n", "year.epw:35:"),
 ])
 def test_a_broken_epw_is_refused_at_its_line(program, tmp_path, old, new, message):
@@ -189,27 +142,6 @@ def test_hours_that_an_epw_lacks_are_named(program, tmp_path):
 
     assert done.returncode == 1
     assert "year.epw: no wind at 33.25 h of the two days that end with the scene's" in done.stderr
-
-
-# SURFRAD: samples of three minutes, UTC.
-def surfrad_text(*days, value=None, longitude="77.67", step_min=3):
-    """`value(time)`: a dict of what differs."""
-    text = ""
-    for day in days:
-        text += f" Rochester\n  43.08  {longitude}  169 m version 1\n"
-        time = datetime.datetime(1992, 6, day)
-        for i in range(1440 // step_min):
-            now = time + datetime.timedelta(minutes=i * step_min)
-            v = {"direct": 800.0, "diffuse": 100.0, "infrared": 330.0, "air": 20.0, "rh": 50.0,
-                 "wind": 3.0, "pressure": 995.0, **(value(now) if value else {})}
-            pairs = [0.0, 0.0, v["direct"], v["diffuse"], v["infrared"], 0, 0, 400.0, 0, 0, 0, 0, 0,
-                     0, 0, v["air"], v["rh"], v["wind"], 180.0, v["pressure"]]
-            hours = now.hour + now.minute / 60
-            text += (f" 1992 {now.timetuple().tm_yday} {now.month} {now.day} {now.hour} {now.minute}"
-                     f" {hours:.3f} 45.0 " + " ".join(
-                         f"{p} {v.get('flag', 0) if k == 17 else 0}" for k, p in enumerate(pairs))
-                     + "\n")
-    return text
 
 
 def test_surfrad_s_utc_becomes_the_scene_s_clock(program, tmp_path):
@@ -281,7 +213,6 @@ def test_flag_one_makes_a_value_missing(program, tmp_path):
     (" 1992 175 6 23 0 3", " 1992 175 6 23.5 0 3", "roc.dat:4:"),
     (" 1992 175 6 23 0 3", " 1992 175 6 23 0 0", "a time after the one before"),
     ("3.0 0 180.0", "3.0 180.0", "roc.dat:3:"),
-    ("20.0 0 50.0", "200.0 0 50.0", "an air temperature in C from -90 to 60"),
 ])
 def test_a_broken_surfrad_day_is_refused_at_its_line(program, tmp_path, old, new, message):
     text = surfrad_text(23, step_min=15)
@@ -304,12 +235,15 @@ def test_a_surfrad_day_of_another_date_is_refused(program, tmp_path):
     assert "the scene's day begins at 1992-06-23T04:00:00" in done.stderr
 
 
-def test_days_of_two_stations_do_not_mix(program, tmp_path):
-    (tmp_path / "roc.dat").write_text(surfrad_text(22) + surfrad_text(23, longitude="88.37"))
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+def test_of_days_of_two_stations_the_nearest_are_taken(program, tmp_path, order):
+    stations = [surfrad_text(22, 23, 24, value=lambda now: {"air": 15.0}),
+                surfrad_text(22, 23, 24, value=lambda now: {"air": 25.0}, longitude="88.37")]
+    (tmp_path / "roc.dat").write_text("".join(stations[i] for i in order))
+    rows, errors = history(program, tmp_path, "roc.dat")
 
-    done = check(program, tmp_path, "roc.dat")
-
-    assert done.returncode == 1 and "the station of the days before" in done.stderr
+    assert rows[:, AIR] == pytest.approx(15.0)
+    assert "roc.dat: has several places: Rochester at latitude 43.08, longitude -77.67 is the nearest" in errors
 
 
 def test_radsig_thermal_takes_them_too(program, tmp_path):

@@ -250,6 +250,61 @@ static void a_byte_order_mark_is_passed_over(void **state)
     record_file_free(file);
 }
 
+static void assert_line(record_file *file, const char *expected)
+{
+    const char *text;
+
+    assert_int_equal(record_file_text(file, &text, "a line"), STATUS_OK);
+    assert_string_equal(text, expected);
+}
+
+static void latin_1_is_read_as_utf_8(void **state)
+{
+    (void)state;
+    record_file *file = open_file("M\xf6rtel \x80\nM\xc3\xb6rtel\n");
+
+    assert_line(file, "M\xc3\xb6rtel \xe2\x82\xac"); /* Windows-1252 has the euro sign there */
+    assert_line(file, "M\xc3\xb6rtel");
+    record_file_free(file);
+}
+
+static void utf_16_is_read_as_utf_8(void **state)
+{
+    static const char little[] = "\xff\xfe"
+                                 "1\0,\0\xb0\0\n\0"
+                                 "2\0";
+    static const char big[] = "\xfe\xff"
+                              "\0"
+                              "1\0,\0\xb0\0\n\0"
+                              "2";
+
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        record_file *file = NULL;
+        FILE *stream = fopen(text_file(""), "wb");
+        fwrite(i ? big : little, 1, 12, stream);
+        fclose(stream);
+        assert_int_equal(record_file_open(&file, text_file_at), STATUS_OK);
+        assert_line(file, "1,\xc2\xb0");
+        assert_line(file, "2");
+        record_file_free(file);
+    }
+}
+
+static void a_carriage_return_alone_ends_a_line(void **state)
+{
+    (void)state;
+    record_file *file = open_file("one\rtwo\r\nthree\rfour\r");
+
+    assert_line(file, "one");
+    assert_line(file, "two");
+    assert_line(file, "three");
+    assert_line(file, "four");
+    assert_int_equal(record_file_line(file), 4);
+    assert_true(record_file_is_whole(file));
+    record_file_free(file);
+}
+
 static void a_file_without_a_last_line_end_may_be_cut(void **state)
 {
     (void)state;
@@ -283,6 +338,9 @@ int main(void)
         cmocka_unit_test(what_is_no_text_file_is_refused),
         cmocka_unit_test(an_empty_file_is_at_its_end),
         cmocka_unit_test(a_byte_order_mark_is_passed_over),
+        cmocka_unit_test(latin_1_is_read_as_utf_8),
+        cmocka_unit_test(utf_16_is_read_as_utf_8),
+        cmocka_unit_test(a_carriage_return_alone_ends_a_line),
         cmocka_unit_test(a_file_without_a_last_line_end_may_be_cut),
     };
 

@@ -52,6 +52,27 @@ static void the_unit_stands_in_the_first_line(void **state)
     response_free(cm1);
 }
 
+static void headings_are_read_as_people_write_them(void **state)
+{
+    static const char *const texts[] = {
+        "Wavelength [nm];Response\n8000;1\n10000;3\n12500;2\n",
+        "wavelength (nm)\tRelative Response\n8000\t1\n10000\t3\n12500\t2\n",
+        "\"wavelength_um\", \"Transmission\"\r\"8\",\"1\"\r\"10\",\"3\"\r\"12.5\",\"2\"\r",
+        "Lambda [\xc2\xb5m],RSR\n8,1,\n10,3,\n12.5,2,\n",
+        "lambda [\xb5m],rsr\n8,1\n10,3\n12.5,2\n", /* Latin-1 */
+        "Wavenumber [cm-1],transmittance\n1250,1\n1000,3\n800,2\n",
+    };
+
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        response *r = read_text(texts[i]);
+        assert_near(r->wavelength_um[0], 8.0, 1e-14);
+        assert_near(r->wavelength_um[2], 12.5, 1e-14);
+        assert_near(r->value[0], 1.0 / 3.0, 1e-16);
+        response_free(r);
+    }
+}
+
 static void a_table_may_fall_in_wavelength(void **state)
 {
     (void)state;
@@ -157,6 +178,7 @@ int main(void)
         cmocka_unit_test(a_table_is_scaled_to_a_peak_of_1),
         cmocka_unit_test(a_response_is_0_outside_its_table),
         cmocka_unit_test(the_unit_stands_in_the_first_line),
+        cmocka_unit_test(headings_are_read_as_people_write_them),
         cmocka_unit_test(a_table_may_fall_in_wavelength),
         cmocka_unit_test(an_integral_against_a_line_is_exact),
         cmocka_unit_test(an_integral_ends_with_the_table),

@@ -171,6 +171,7 @@ static void wrong_histories_are_refused_at_their_line(void **state)
     assert_line_refused("1.0156e+3", "101560", 2, "pressure in mbar");
     assert_line_refused("5    1", "5.5 1", 2, "cloud type in column 10, a whole number");
     assert_line_refused("7.8 ", "warm", 2, "13 numbers");
+    assert_line_refused("7.8 ", "-99.9 ", 2, "a flag of missing values");
 }
 
 static void a_file_that_is_not_there_is_named(void **state)

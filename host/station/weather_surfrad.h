@@ -6,7 +6,7 @@
 #include "sky/site.h"
 #include "weather/weather.h"
 
-/* Takes one daily file, or several of a station one behind the other. Times are UTC and those of
+/* Takes one daily file, or several one behind the other; of several stations the nearest (nearest_place.h). Times are UTC and those of
  * the end of a sample; west longitudes may stand there without a sign. A value of -9999.9, or one
  * whose flag is 1, is missing.
  * Fails with STATUS_FORMAT where the format does not hold, or as weather_series_history does. */

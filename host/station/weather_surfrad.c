@@ -1,9 +1,10 @@
-#include "weather/weather_surfrad.h"
+#include "station/weather_surfrad.h"
 
 #include "base/number.h"
+#include "files/column.h"
 #include "files/record_file.h"
-#include "kernels/constants.h"
-#include "weather/weather_series.h"
+#include "station/nearest_place.h"
+#include "station/weather_series.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -11,31 +12,28 @@
 #include <string.h>
 #include <time.h>
 
-#define KELVIN ((double)ZERO_CELSIUS_K)
-#define MISSING (-9999.0)
+enum { NUMBERS = 48, SOLRAD_NUMBERS = 22, MADISON_NUMBERS = 31, BAD = 1 };
 
-enum { NUMBERS = 48, HUMIDITY = 40, BAD = 1 };
-
-/* Columns that are read; the flag stands behind each. */
-static const struct {
-    int column;
-    const char *name;
-    double low, high;
-    double scale, offset; /* SI = scale x value + offset */
-} columns[WEATHER_SERIES_COUNT] = {
-    [WEATHER_SERIES_AIR_K] = {38, "an air temperature in C", -90, 60, 1, KELVIN},
-    [WEATHER_SERIES_DEW_POINT_K] = {HUMIDITY, "a relative humidity in %", 0, 110, 0.01, 0},
-    [WEATHER_SERIES_PRESSURE_PA] = {46, "a pressure in mbar", 300, 1100, 100, 0},
-    [WEATHER_SERIES_WIND_M_S] = {42, "a wind speed in m/s", 0, 100, 1, 0},
-    [WEATHER_SERIES_DIRECT_W_M2] = {12, "direct sun in W/m2", -50, 1500, 1, 0},
-    [WEATHER_SERIES_DIFFUSE_W_M2] = {14, "diffuse light in W/m2", -50, 1500, 1, 0},
-    [WEATHER_SERIES_LONGWAVE_W_M2] = {16, "longwave in W/m2", 10, 1000, 1, 0},
+/* The flag of a value stands behind it. */
+static const column columns[WEATHER_SERIES_COUNT] = {
+    [WEATHER_SERIES_GLOBAL_W_M2] = {"global irradiance", "W/m2", 8, -50, 1800, false},
+    [WEATHER_SERIES_DIRECT_W_M2] = {"direct sun", "W/m2", 12, -50, 1500, false},
+    [WEATHER_SERIES_DIFFUSE_W_M2] = {"diffuse light", "W/m2", 14, -50, 1500, false},
+    [WEATHER_SERIES_LONGWAVE_W_M2] = {"longwave", "W/m2", 16, 10, 1000, false},
+    [WEATHER_SERIES_AIR_K] = {"air temperature", "C", 38, -90, 60, false},
+    [WEATHER_SERIES_HUMIDITY] = {"relative humidity", "%", 40, 0, 110, false},
+    [WEATHER_SERIES_WIND_M_S] = {"wind speed", "m/s", 42, 0, 100, false},
+    [WEATHER_SERIES_PRESSURE_PA] = {"pressure", "mbar", 46, 300, 1100, false},
 };
 
 typedef struct surfrad {
     weather_series series;
     size_t room;
     record_file *file;
+    column_place place[WEATHER_SERIES_COUNT];
+    column_gaps gaps;
+    nearest_place nearest;
+    bool is_kept; /* the rows behind the last heading */
 } surfrad;
 
 /* A station's name, then latitude, longitude, elevation. */
@@ -44,23 +42,22 @@ static status read_heading(surfrad *s)
     status rc = STATUS_OK;
     static const char expected[] = "latitude, longitude and elevation of the station";
     double where[3]; /* latitude, longitude, elevation */
+    char name[sizeof s->series.name];
     const char *text;
 
     TRY(record_file_text(s->file, &text, "a station's name"));
-    snprintf(s->series.name, sizeof s->series.name, "%s", text);
+    snprintf(name, sizeof name, "%s", text);
     TRY(record_file_text(s->file, &text, expected));
     const char *end = text;
     for (int i = 0; end && i < 3; i++) end = number_take(end + strspn(end, " \t"), &where[i]);
     if (!end || (*end && !isspace((unsigned char)*end)) || fabs(where[0]) > 90.0 ||
         fabs(where[1]) > 180.0)
         TRY(record_file_reject(s->file, "%s", expected));
-    const double latitude_deg = where[0];
-    const double longitude_deg = -fabs(where[1]); /* all stations are in America */
-    if (s->series.count > 0 &&
-        (latitude_deg != s->series.latitude_deg || longitude_deg != s->series.longitude_deg))
-        TRY(record_file_reject(s->file, "the station of the days before"));
-    s->series.latitude_deg = latitude_deg;
-    s->series.longitude_deg = longitude_deg;
+    /* All stations are in America. */
+    s->is_kept = nearest_place_take(&s->nearest, &s->series, where[0], -fabs(where[1]));
+    if (!s->is_kept) goto out;
+    s->series.elevation_m = where[2];
+    memcpy(s->series.name, name, sizeof name);
 out:
     return rc;
 }
@@ -103,42 +100,48 @@ out:
     return rc;
 }
 
-static status take_values(const surfrad *s, const double number[NUMBERS], weather_sample *out)
+static void take_values(surfrad *s, const double number[NUMBERS], weather_sample *out)
 {
-    status rc = STATUS_OK;
-
     for (int q = 0; q < WEATHER_SERIES_COUNT; q++) {
-        const int c = columns[q].column;
+        const column_place *p = &s->place[q];
         out->value[q] = NAN;
-        if (!columns[q].name || number[c] <= MISSING || number[c + 1] == BAD) continue;
-        if (number[c] < columns[q].low || number[c] > columns[q].high)
-            TRY(record_file_reject(s->file, "%s from %g to %g in column %d, not %g",
-                                   columns[q].name, columns[q].low, columns[q].high, c + 1,
-                                   number[c]));
-        out->value[q] = columns[q].scale * number[c] + columns[q].offset;
+        if (!p->column || number[p->field + 1] == BAD) continue;
+        out->value[q] = column_value(p, number[p->field], s->file, &s->gaps);
     }
-    const double humidity = fmin(1.0, out->value[WEATHER_SERIES_DEW_POINT_K]);
-    if (isnan(out->value[WEATHER_SERIES_DEW_POINT_K]) || isnan(out->value[WEATHER_SERIES_AIR_K]))
-        out->value[WEATHER_SERIES_DEW_POINT_K] = NAN;
-    else
-        out->value[WEATHER_SERIES_DEW_POINT_K] =
-            weather_dew_point_k(out->value[WEATHER_SERIES_AIR_K], humidity);
-out:
-    return rc;
 }
 
 static status read_row(surfrad *s)
 {
     status rc = STATUS_OK;
     double number[NUMBERS];
-    weather_sample sample;
+    weather_sample sample = {0};
+    const char *text;
 
-    TRY(record_file_numbers(s->file, NUMBERS, number, "48 numbers: a time, then values and flags"));
+    TRY(record_file_text(s->file, &text, "a row of a day"));
+    const int found = record_numbers(text, NUMBERS, number);
+    NEED(found != SOLRAD_NUMBERS && found != MADISON_NUMBERS, STATUS_FORMAT,
+         "%s: is a day of SOLRAD, which measures light alone: expected air temperature, humidity "
+         "and "
+         "wind too, as days of SURFRAD have them",
+         s->series.path);
+    if (found != NUMBERS)
+        TRY(record_file_reject(s->file, "48 numbers: a time, then values and flags"));
+    if (!s->is_kept) return STATUS_OK;
     TRY(take_time(s, number, &sample.end_s));
-    TRY(take_values(s, number, &sample));
+    take_values(s, number, &sample);
     TRY(weather_series_add(&s->series, &s->room, &sample));
 out:
     return rc;
+}
+
+/* The shortest step between two samples. */
+static double least_step_s(const weather_series *series)
+{
+    double least_s = INFINITY;
+
+    for (size_t i = 1; i < series->count; i++)
+        least_s = fmin(least_s, series->sample[i].end_s - series->sample[i - 1].end_s);
+    return least_s;
 }
 
 /* A row begins with its year, a heading with the station's name. */
@@ -152,8 +155,9 @@ static bool is_row(record_file *file)
 status weather_surfrad_read(weather **out, const char *path, const site *place)
 {
     status rc = STATUS_OK;
-    surfrad s = {.series = {.path = path}};
+    surfrad s = {.series = {.path = path, .utc_offset_h = NAN}, .nearest = nearest_place_of(place)};
 
+    column_places(s.place, columns, WEATHER_SERIES_COUNT);
     TRY(record_file_open(&s.file, path));
     do {
         TRY(read_heading(&s));
@@ -161,9 +165,11 @@ status weather_surfrad_read(weather **out, const char *path, const site *place)
         while (is_row(s.file));
     } while (!record_file_at_end(s.file));
     NEED(s.series.count > 1, STATUS_FORMAT, "%s: holds one sample, expected a day", path);
-    s.series.span_s = s.series.sample[1].end_s - s.series.sample[0].end_s;
+    s.series.span_s = least_step_s(&s.series);
     NEED(s.series.span_s <= 900.0, STATUS_FORMAT,
          "%s: samples are %g minutes apart, expected 15 at most", path, s.series.span_s / 60.0);
+    column_gaps_tell(&s.gaps, path);
+    nearest_place_tell(&s.nearest, &s.series);
     TRY(weather_series_history(out, &s.series, place));
 out:
     weather_series_free(&s.series);
