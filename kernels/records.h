@@ -100,8 +100,10 @@ typedef struct material_record {
     uint number;            /* material code as written in planes */
     uint lobe_first; /* first row of its diffuse lobe in that table, RECORD_NONE: Lambertian */
     float roughness; /* of the specular fraction: 0 a mirror .. 1 */
+    float melts_k;   /* its surface gets no warmer; 0: it does not melt */
+    uint unused[3];
 } material_record;
-RECORD_SIZE(material_record, 48);
+RECORD_SIZE(material_record, 64);
 
 /* One step of the weather as the thermal model uses it. */
 typedef struct forcing_record {

@@ -85,11 +85,19 @@ class ply_text : public ply_body
     }
 
   private:
+    /* Lines that hold no row: blank, or a comment, which belongs in the header. */
+    static bool is_remark(std::string_view line)
+    {
+        const std::string_view word = mesh_text_word(line);
+
+        return word.empty() || word[0] == '#' || word == "comment";
+    }
+
     static std::size_t line_count(mesh_text lines)
     {
         std::size_t count = 0;
 
-        for (std::string_view line; lines.next(line);) count += !mesh_text_word(line).empty();
+        for (std::string_view line; lines.next(line);) count += !is_remark(line);
         return count;
     }
 
@@ -107,7 +115,7 @@ class ply_text : public ply_body
 
         while ((word = mesh_text_word(rest_)).empty() && !(has_row_a_line_ && is_inside_) &&
                lines_.next(rest_))
-            continue;
+            if (is_remark(rest_)) rest_ = {};
         is_inside_ = true;
         return word;
     }

@@ -47,7 +47,7 @@ void read_binary(mesh_soup &soup, const std::string &path, std::string_view text
 bool next_keyword(mesh_text &lines, std::string_view &keyword, std::string_view &rest)
 {
     while (lines.next(rest))
-        if (!(keyword = mesh_text_word(rest)).empty()) return true;
+        if (!(keyword = mesh_text_word(rest)).empty() && keyword[0] != '#') return true;
     return false;
 }
 

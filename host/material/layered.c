@@ -128,6 +128,7 @@ void layered_fill(layered_record *out, const facet_record *facet, const material
     *out = (layered_record){
         .absorptance = material->solar_absorptance,
         .emissivity = material->thermal_emissivity,
+        .melts_k = material->melts_k,
         .power_w_m2 = facet->power_w_m2,
         .two_sided = facet->two_sided,
         .back = back_of(matter, material),

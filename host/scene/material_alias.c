@@ -4,14 +4,14 @@
 #include "base/name_pattern.h"
 #include "base/spelling.h"
 #include "base/utf8_text.h"
-#include "files/record_file.h"
+#include "files/csv_row.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-enum { FIELD_SIZE = 256, WHERE_SIZE = 512 };
+enum { NAME_SIZE = 256, WHERE_SIZE = 512 };
 
 /* Adds an alias; the texts are copied. */
 static status add(material_aliases *to, const char *pattern, const char *material,
@@ -36,7 +36,7 @@ static void read_table(material_aliases *to, scene_reader *reader, const toml_no
 {
     for (size_t i = 0; i < toml_node_count(table); i++) {
         const toml_node *child = toml_node_at(table, i);
-        char name[FIELD_SIZE], message[512];
+        char name[NAME_SIZE], message[512];
         const char *material;
         snprintf(name, sizeof name, "%s%s%s", prefix, *prefix ? "." : "", toml_node_key(child));
         if (toml_node_kind(child) == TOML_TABLE)
@@ -48,61 +48,40 @@ static void read_table(material_aliases *to, scene_reader *reader, const toml_no
     }
 }
 
-/* Takes a field off a row, without blanks and quotes around it; NULL behind the last. */
-static const char *take_field(const char *row, char out[FIELD_SIZE])
+static bool is_pair(const csv_row *row)
 {
-    size_t length = 0;
-    bool is_quoted = false;
-
-    row += strspn(row, " \t");
-    for (; *row && (is_quoted || !strchr(",;\t", *row)); row++) {
-        is_quoted = *row == '"' ? !is_quoted : is_quoted;
-        if (*row == '"' && row[1] != '"') continue;
-        if (*row == '"') {
-            row++; /* doubled inside quotes */
-            is_quoted = !is_quoted;
-        }
-        if (length + 1 < FIELD_SIZE) out[length++] = *row;
-    }
-    while (length > 0 && (out[length - 1] == ' ' || out[length - 1] == '\t')) length--;
-    out[length] = '\0';
-    return *row ? row + 1 : NULL;
-}
-
-static bool read_pair(const char *row, char pattern[FIELD_SIZE], char material[FIELD_SIZE])
-{
-    const char *rest = take_field(row, pattern);
-
-    if (!rest) return false;
-    rest = take_field(rest, material);
-    return *pattern && *material && (!rest || !rest[strspn(rest, ",; \t")]);
+    return row->count == 2 && *csv_row_field(row, 0) && *csv_row_field(row, 1);
 }
 
 static status read_file(material_aliases *to, const char *path, const toml_node *node)
 {
     status rc = STATUS_OK;
+    static const char names[] = "the names of the columns, pattern,material";
     static const char expected[] = "a pattern and a material";
-    char pattern[FIELD_SIZE], material[FIELD_SIZE];
     const char *text;
+    csv_row row = {0};
     record_file *file = NULL;
 
     TRY(record_file_open(&file, path));
     TRY(record_file_header(file, NULL));
-    TRY(record_file_text(file, &text, "the names of the columns, pattern,material"));
-    if (!read_pair(text, pattern, material) || strcasecmp(pattern, "pattern") != 0 ||
-        strcasecmp(material, "material") != 0) {
-        rc = record_file_reject(file, "the names of the columns, pattern,material");
+    TRY(record_file_text(file, &text, names));
+    const char separator = csv_separator(text);
+    TRY(csv_row_split(&row, text, separator));
+    if (!is_pair(&row) || strcasecmp(csv_row_field(&row, 0), "pattern") != 0 ||
+        strcasecmp(csv_row_field(&row, 1), "material") != 0) {
+        rc = record_file_reject(file, "%s", names);
         goto out;
     }
     while (!record_file_at_end(file)) {
-        TRY(record_file_text(file, &text, expected));
-        if (!read_pair(text, pattern, material)) {
-            rc = record_file_reject(file, expected);
+        TRY(csv_row_take(&row, file, separator, expected));
+        if (!is_pair(&row)) {
+            rc = record_file_reject(file, "%s", expected);
             goto out;
         }
-        TRY(add(to, pattern, material, node, record_file_line(file)));
+        TRY(add(to, csv_row_field(&row, 0), csv_row_field(&row, 1), node, record_file_line(file)));
     }
 out:
+    csv_row_free(&row);
     record_file_free(file);
     return rc;
 }

@@ -17,7 +17,7 @@ typedef struct stated_material {
     const char *name, *emissivity_path, *extinction_path, *scattering_path;
     double emissivity, specular_share, roughness, temperature_k, thickness_cm;
     double density_kg_m3, specific_heat_j_kg_k, conductivity_w_m_k;
-    double solar_absorptance, exposed_area, extinction_per_km;
+    double solar_absorptance, exposed_area, extinction_per_km, melting_c;
     bool two_sided;
     layered_matter layered;
     heat_schedule power;
@@ -61,6 +61,7 @@ static stated_material read_stated(scene_reader *reader, const toml_node *node)
                          .solar_absorptance = NAN,
                          .exposed_area = NAN,
                          .extinction_per_km = NAN,
+                         .melting_c = NAN,
                          .layered = layered_matter_default()};
 
     scene_table_require(&t, "name", "the name that the geometry gives it");
@@ -79,6 +80,7 @@ static stated_material read_stated(scene_reader *reader, const toml_node *node)
     scene_table_number(&t, "conductivity_w_m_k", 0.0, 5e3, &m.conductivity_w_m_k);
     scene_table_number(&t, "solar_absorptance", 0.0, 1.0, &m.solar_absorptance);
     scene_table_number(&t, "exposed_area", -1.0, 1.0, &m.exposed_area);
+    scene_table_number(&t, "melting_temperature_c", -100.0, 1000.0, &m.melting_c);
     scene_table_bool(&t, "two_sided", &m.two_sided);
     scene_read_layered(&t, &m.layered);
     scene_read_power(&t, &m.power);
@@ -159,6 +161,12 @@ static float specular_share(const scene *s, const stated_material *stated, const
     return s->thesis ? (fraction < 0.5f ? 0.0f : 1.0f) : fraction;
 }
 
+/* 0: it does not; in thesis mode nothing does. */
+static float melts_k(const scene *s, const stated_material *stated)
+{
+    return s->thesis || isnan(stated->melting_c) ? 0.0f : (float)(stated->melting_c + 273.15);
+}
+
 static material_record make_record(const material_sources *from, const material *known,
                                    const stated_material *stated)
 {
@@ -170,7 +178,8 @@ static material_record make_record(const material_sources *from, const material 
                                             .specific_heat_j_kg_k = NAN,
                                             .conductivity_w_m_k = NAN,
                                             .solar_absorptance = NAN,
-                                            .exposed_area = NAN};
+                                            .exposed_area = NAN,
+                                            .melting_c = NAN};
     const material *base = known ? known : &unknown;
     const stated_material *over = stated ? stated : &nothing;
     /* Grey means the same in sunlight unless the scene says more. */
@@ -185,6 +194,7 @@ static material_record make_record(const material_sources *from, const material 
         .exposed_area = either(over->exposed_area, base->exposed_area),
         .specular_share = specular_share(from->reader->s, over, base),
         .roughness = from->reader->s->thesis ? 0.0f : either(over->roughness, 0.0),
+        .melts_k = melts_k(from->reader->s, over),
         .number = known ? (uint32_t)known->code : stated_number(from, stated),
     };
 }

@@ -18,7 +18,7 @@ typedef struct conduction_group {
 } conduction_group;
 
 /* The host, for which a lane is a float, sets aside so many bytes a facet; whole groups must fit. */
-#define CONDUCTION_FACET_BYTES 456u
+#define CONDUCTION_FACET_BYTES 460u
 #if LANES_WIDTH == 1
 RECORD_SIZE(conduction_group, CONDUCTION_FACET_BYTES);
 #else

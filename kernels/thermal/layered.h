@@ -40,7 +40,8 @@ typedef struct layered_record {
     float lateral_fraction[LAYERED_NODES]; /* of that heat, for each node; sum 1 */
     float sky_fraction;                    /* of the view */
     uint received_column; /* of rows of longwave that reaches the front, counted from 1; 0: none */
-    uint unused[2];
+    float melts_k;        /* the surface gets no warmer; 0: it does not melt */
+    uint unused;
 } layered_record;
 RECORD_SIZE(layered_record, 176);
 
@@ -93,6 +94,8 @@ static inline void layered_set_body(layered_body *body, int lane, const layered_
     LAYERED_SET(body, stated_k, lane, record->stated_temperature_k);
     for (int i = 0; i < LAYERED_NODES; i++)
         LAYERED_SET(body, lateral_fraction[i], lane, record->lateral_fraction[i]);
+    LAYERED_SET(body, face.melts_k, lane,
+                record->melts_k > 0.0f ? record->melts_k : THERMAL_NEVER_K);
     body->material[lane] = record->material;
     LAYERED_SET(body, face.sky, lane, record->sky_fraction);
     body->lateral_column[lane] = record->lateral_column;
@@ -229,6 +232,34 @@ static inline void layered_step_film(layered_state *s, const layered_body *body,
     s->film_kg_m2 = fmin(fmax(film, none), body->film_limit);
 }
 
+/* Rise of node 0 where the face would melt.
+ *   right   of the node, with what comes through a face that does not */
+static inline lanes layered_melting_rise(const layered_state *s, const layered_body *body,
+                                         const layered_elimination *e, const layered_front *front,
+                                         lanes right, lanes rise)
+{
+    const lanes before = body->conductance[0], node_k = s->node_k[0];
+    const lanes through =
+        front->fraction * (front->all.w_m2 + front->all.w_m2_k * (s->front_k - node_k));
+    const lanes free_k =
+        s->front_k + (front->all.w_m2 - before * (s->front_k - node_k - rise)) * front->way;
+
+    return thermal_melting_rise(&body->face, rise, free_k, node_k, right - through, e->front_taken,
+                                before);
+}
+
+/* Nodes of the front's own material melt too. */
+static inline void layered_melt(layered_state *s, const layered_body *body)
+{
+    const lanes none = 0.0f;
+
+    if (!lanes_any(thermal_melts(&body->face))) return;
+    s->front_k = fmin(s->front_k, body->face.melts_k);
+    for (int j = 0; j < LAYERED_NODES; j++)
+        s->node_k[j] = body->lateral_fraction[j] > none ? fmin(s->node_k[j], body->face.melts_k)
+                                                        : s->node_k[j];
+}
+
 /* One implicit step; film and face change with it.
  *   lateral_w_m2   heat that comes along the facet */
 static inline void layered_step(layered_state *s, const layered_body *body,
@@ -257,6 +288,8 @@ static inline void layered_step(layered_state *s, const layered_body *body,
                body->lateral_fraction[0] * lateral_w_m2 + e->passed[1] * right[1] +
                front.fraction * (front.all.w_m2 + front.all.w_m2_k * (s->front_k - s->node_k[0]));
     rise = right[0] / (e->front_taken + front.fraction * front.all.w_m2_k);
+    if (lanes_any(thermal_melts(&body->face)))
+        rise = layered_melting_rise(s, body, e, &front, right[0], rise);
     s->node_k[0] += rise;
     for (int j = 1; j <= last; j++) {
         rise = fma(e->passed[j], rise, right[j] * e->inverse[j]);
@@ -267,6 +300,7 @@ static inline void layered_step(layered_state *s, const layered_body *body,
         body->is_stated != none
             ? body->back_k
             : s->back_k + (back.w_m2 - behind * (s->back_k - s->node_k[last])) * e->back_way;
+    layered_melt(s, body);
     layered_step_film(s, body, &front, old_front_k, air, step_s);
 }
 

@@ -9,6 +9,8 @@
  *                    over from there (thermal_history.h)
  *   nodes            equal; outside thesis mode each half as thick again as the one before it
  *   dew              outside thesis mode, on the front alone (moisture.h)
+ *   melting          matter that melts gets no warmer: what is more runs off with the water; outside
+ *                    thesis mode
  * assumed: all of these; see docs/departures.md.
  * LANES_WIDTH facets go side by side; what they do not have in common is chosen lane by lane. */
 #ifndef THERMAL_KERNEL_H
@@ -25,6 +27,7 @@
 #define THERMAL_SUB_STEP_S 300.0f /* at most */
 #define THERMAL_GROUND_REFLECTANCE 0.15f
 
+#define THERMAL_NEVER_K 1e9f
 #define THERMAL_NODE_RATIO 1.5f /* outside thesis mode */
 
 /* How slabs are cut into nodes, of a thickness and a conductance of 1. */
@@ -67,6 +70,7 @@ typedef struct thermal_body {
     lanes power_w_m2;
     lanes capacity_j_m2_k;    /* of the whole thickness */
     lanes conductance_w_m2_k; /* 0: no slab */
+    lanes melts_k;            /* THERMAL_NEVER_K: it does not melt */
 } thermal_body;
 
 /* What one instant of the weather does to a body. */
@@ -113,6 +117,26 @@ static inline void thermal_set_body(thermal_body *body, int lane, facet_record f
                 matter.density_kg_m3 * matter.specific_heat_j_kg_k * facet.thickness_m);
     THERMAL_SET(body, conductance_w_m2_k, lane,
                 slab ? matter.conductivity_w_m_k / facet.thickness_m : 0.0f);
+    THERMAL_SET(body, melts_k, lane, matter.melts_k > 0.0f ? matter.melts_k : THERMAL_NEVER_K);
+}
+
+/* Rise of the node behind a face that would be warmer than its matter melts: the face keeps that.
+ *   free_k         where the face would come to, by `rise` of the node
+ *   right, taken   of the node, without the face
+ *   between        conductance from the face to it */
+static inline lanes thermal_melting_rise(const thermal_body *body, lanes rise, lanes free_k,
+                                         lanes node_k, lanes right, lanes taken, lanes between)
+{
+    const lanes held = (right + between * (body->melts_k - node_k)) / (taken + between);
+
+    return free_k > body->melts_k ? held : rise;
+}
+
+static inline lanes_mask thermal_melts(const thermal_body *body)
+{
+    const lanes never = THERMAL_NEVER_K;
+
+    return body->melts_k < never;
 }
 
 static inline float thermal_black_w_m2(float temperature_k)
@@ -251,6 +275,14 @@ static inline thermal_flux thermal_back_flux(const thermal_body *body, const the
     return flux;
 }
 
+static inline void thermal_melt(thermal_state *state, const thermal_body *body)
+{
+    if (!lanes_any(thermal_melts(body))) return;
+    state->front_k = fmin(state->front_k, body->melts_k);
+    for (int j = 0; j < THERMAL_NODES; j++)
+        state->node_k[j] = fmin(state->node_k[j], body->melts_k);
+}
+
 /* Steady balance by Newton's method: both faces of a slab, or one temperature. Starts at the
  * air temperature and stays there where nothing is exchanged. */
 static inline thermal_state thermal_start(const thermal_body *body, const thermal_load *load,
@@ -278,6 +310,7 @@ static inline thermal_state thermal_start(const thermal_body *body, const therma
     }
     for (int i = 0; i < THERMAL_NODES; i++)
         state.node_k[i] = state.front_k + nodes->centre[i] * (state.back_k - state.front_k);
+    thermal_melt(&state, body);
     return state;
 }
 
@@ -300,7 +333,7 @@ static inline void thermal_step_lump(thermal_state *state, const thermal_body *b
     const lanes decay = all.w_m2_k * step_k_m2_w;
     /* 1 - exp is good to 1e-7 of the way to the balance, far below what 300 K are rounded to. */
     const lanes gain = decay > (lanes)1e-4f ? (1.0f - exp(-decay)) / all.w_m2_k : step_k_m2_w;
-    state->front_k += gain * all.w_m2;
+    state->front_k = fmin(state->front_k + gain * all.w_m2, body->melts_k);
     /* Of the flux, what did not warm the node went with its mean rise. */
     const lanes mean_k = decay > (lanes)1e-2f ? (1.0f - gain / step_k_m2_w) * all.w_m2 / all.w_m2_k
                                               : 0.5f * gain * all.w_m2;
@@ -374,6 +407,13 @@ static inline void thermal_step_slab(thermal_state *state, const thermal_body *b
     rise = fma(right[0], both,
                before * (front.w_m2 + front.w_m2_k * (state->front_k - state->node_k[0]))) *
            (quotient * both);
+    if (lanes_any(thermal_melts(body))) {
+        const lanes free_k =
+            state->front_k +
+            (front.w_m2 - before * (state->front_k - state->node_k[0] - rise)) * (quotient * all);
+        rise = thermal_melting_rise(body, rise, free_k, state->node_k[0], right[0], e->inverse[0],
+                                    before);
+    }
     state->node_k[0] += rise;
     for (int j = 1; j <= last; j++) {
         rise = fma(e->passed[j], rise, right[j] * e->inverse[j]);
@@ -381,6 +421,7 @@ static inline void thermal_step_slab(thermal_state *state, const thermal_body *b
     }
     state->front_k +=
         (front.w_m2 - before * (state->front_k - state->node_k[0])) * (quotient * all);
+    thermal_melt(state, body);
     state->back_k +=
         (back.w_m2 - e->between[THERMAL_NODES] * (state->back_k - state->node_k[last])) *
         e->back_way;

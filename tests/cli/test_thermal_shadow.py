@@ -112,6 +112,18 @@ def test_layers_of_one_material_are_a_thicker_facet(program, tmp_path):
     assert abs(one - two).max() < 1e-3
 
 
+@pytest.mark.parametrize("model", ["therm", "layered"])
+def test_snow_gets_no_warmer_than_0_c(program, tmp_path, model):
+    snowy = scene(render={"thermal": model})
+    snowy["material"][0] = {**snowy["material"][0], "melting_temperature_c": 0.0}
+
+    done = program.render(tmp_path, "--size", "20x20", **snowy)
+
+    ground = done.planes["temperature_c"][done.planes["material"] == done.planes["material"][0, 0]]
+    assert ground.max() == pytest.approx(0.0, abs=1e-3)  # a June noon, float32
+    assert done.planes["temperature_c"].max() > 30  # the box does not melt
+
+
 def test_backgrounds_have_their_own_shade_in_exact_mode_alone(program, tmp_path):
     """Thesis, Figure 3-9: there the sun is on them at all hours."""
     # Off the middle, so that no ray runs along an edge of the box, where a wall is met from behind in

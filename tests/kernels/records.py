@@ -31,7 +31,7 @@ VIEW = record("*first *count sky below")
 CONDUCTION = record("*neighbour[4] link_w_k[4] stated_w_k stated_k area_m2 *unused")
 MATERIAL = record("density_kg_m3 specific_heat_j_kg_k conductivity_w_m_k solar_absorptance"
                   " thermal_emissivity exposed_area specular_share *emissivity_first"
-                  " *emissivity_angles *number *lobe_first roughness")
+                  " *emissivity_angles *number *lobe_first roughness melts_k *unused[3]")
 FORCING = record("air_temperature_k sky_longwave_w_m2 convection_w_m2_k direct_w_m2 diffuse_w_m2"
                  " sun[3] rain_w_m2_k rain_temperature_k specific_humidity"
                  " pressure_pa *convection_law buoyancy roughness plate_w_m2_k wet_below_k *unused[3]")
@@ -59,7 +59,7 @@ MEDIUM_WORLD = record("low[3] high[3] altitude_m *level_count stated_k[4] broad_
 LAYERED = record("capacity_j_m2_k[8] conductance_w_m2_k[9] normal[3] absorptance emissivity power_w_m2"
                  " *two_sided *back back_k resistance_day_s_m resistance_night_s_m film_limit_kg_m2"
                  " stated_temperature_k *material *lateral_column lateral_fraction[8] sky_fraction"
-                 " *received_column *unused[2]")
+                 " *received_column melts_k *unused")
 CONDUCTION_PROGRESS = record("*days *step *is_settled *is_done")
 CONDUCTION_GROUP = np.dtype("V4096")  # to work with: room enough for what the device makes of it
 

@@ -461,6 +461,13 @@ static void a_text_in_utf_16_is_read(void **state)
     }
 }
 
+static void a_line_of_a_text_stl_may_be_a_comment(void **state)
+{
+    (void)state;
+    assert_text_taken(
+        "a.stl", "# c\nsolid\n# c\n" FACET("0 0 0", "1 0 0", "0 1 0") "# c\nendsolid\n", 1, "");
+}
+
 static void padding_behind_a_text_is_no_text(void **state)
 {
     (void)state;
@@ -513,6 +520,7 @@ static void rows_and_headers_of_a_ply_that_are_off_are_told(void **state)
     assert_text_taken("a.ply", HEAD("comment\nobj_info a\n\n") BODY "3 0 1 2\n", 1, "");
     assert_text_taken("a.ply", HEAD("") BODY "3 0 1 2 255 255 255\n", 1,
                       "1 rows hold more than the header promises: the rest is passed over");
+    assert_text_taken("a.ply", HEAD("") "comment c\n0 0 0\n# c\n1 0 0\n\n0 1 0\n3 0 1 2\n", 1, "");
     assert_text_taken("a.ply", HEAD("") "0 0 0 1 0 0 0 1 0 3 0 1 2\n", 1, "");
 #undef BODY
 #undef HEAD
@@ -645,6 +653,7 @@ int main(void)
         cmocka_unit_test(what_an_obj_holds_beside_polygons_is_told),
         cmocka_unit_test(keywords_of_an_obj_that_say_nothing_of_shape_are_no_oddity),
         cmocka_unit_test(a_text_in_utf_16_is_read),
+        cmocka_unit_test(a_line_of_a_text_stl_may_be_a_comment),
         cmocka_unit_test(padding_behind_a_text_is_no_text),
         cmocka_unit_test(a_header_of_an_off_may_be_glued_or_missing),
         cmocka_unit_test(a_count_of_a_binary_stl_that_is_none_is_taken_from_the_size),

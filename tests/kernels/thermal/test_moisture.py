@@ -33,13 +33,13 @@ def nights(steps, air_c, humidity, h=12.0, sky_w_m2=0.0, **values):
     return forcing
 
 
-def run_therm(opencl, forcing, area, emissivity, thickness_m, power=None, own_w_m2=(0,)):
+def run_therm(opencl, forcing, area, emissivity, thickness_m, power=None, own_w_m2=(0,), melts_k=0.0):
     """Of the last of so many facets as have a power of their own."""
     facets, materials = np.zeros(len(own_w_m2), FACET), np.zeros(1, MATERIAL)
     facets["normal"], facets["thickness_m"], facets["power_w_m2"] = (0, 0, 1), thickness_m, own_w_m2
     for name, value in zip(("conductivity_w_m_k", "density_kg_m3", "specific_heat_j_kg_k",
-                            "thermal_emissivity", "exposed_area"),
-                           (0.689, 2114.0, 920.0, emissivity, area)):
+                            "thermal_emissivity", "exposed_area", "melts_k"),
+                           (0.689, 2114.0, 920.0, emissivity, area, melts_k)):
         materials[name] = value
     span = np.zeros(1, SPAN)
     span[0] = (len(facets), 0, len(forcing), 0, 1.0, STEP_S, 0, len(forcing))
@@ -64,11 +64,12 @@ def run_layered(opencl, forcing, emissivity, thickness_m, power=None, **values):
 @pytest.fixture(scope="module")
 def run(opencl):
     """Temperatures of a level facet in C, by the model and how it is built."""
-    def of(kind, forcing, emissivity=0.9, thickness_m=0.005, power=None):
+    def of(kind, forcing, emissivity=0.9, thickness_m=0.005, power=None, melts_k=0.0):
         if kind == LAYERS:
-            return run_layered(opencl, forcing, emissivity, thickness_m, power)
+            return run_layered(opencl, forcing, emissivity, thickness_m, power, melts_k=melts_k,
+                               lateral_fraction=np.full(8, 0.125))
         return run_therm(opencl, forcing, 0.5 if kind == LUMP else -0.5, emissivity, thickness_m,
-                         power)
+                         power, melts_k=melts_k)
 
     return of
 
@@ -177,3 +178,34 @@ def rainy():
     forcing = nights(193, 17.0, 0.005, 15.0)
     forcing["rain_w_m2_k"][116:120] = 4.182e6 * 1e-3 / 3600  # 1 mm/h for an hour
     return forcing
+
+
+@pytest.mark.parametrize("kind", [LUMP, SLAB, LAYERS])
+def test_snow_stays_at_0_c_while_it_melts(run, kind):
+    """Air of 5 C, much power by day, a clear cold night: never above 0 C, and at night as cold as without."""
+    hour = np.arange(5 * 96 + 1) * 0.25
+    power = (500 * np.maximum(0, np.sin(2 * np.pi * (hour - 6) / 24)))[:, None].astype(np.float32)
+    forcing = nights(len(hour), 5.0, 0.0, 8.0, 180.0, wet_below_k=0.0)
+
+    snow = run(kind, forcing, power=power, thickness_m=0.1, melts_k=273.15)
+
+    assert snow.max() == pytest.approx(0.0, abs=1e-4)  # float32 at 273 K
+    assert (snow > -1e-4).sum() > 96 and snow.min() < -5
+
+
+@pytest.mark.parametrize("kind", [SLAB, LAYERS])
+def test_melting_snow_cools_down_as_a_slab_at_0_c(run, kind):
+    """A front that is held at 0 C brings the whole slab there; from then on it follows what did not melt."""
+    steps = 600
+    power = np.zeros((steps, 1), np.float32)
+    power[:400] = 300.0
+    forcing = nights(steps, 0.0, 0.0, 8.0, SIGMA * 273.15**4, wet_below_k=0.0)
+    forcing["air_temperature_k"][400:] = 263.15
+    stays = forcing.copy()
+
+    snow = run(kind, forcing, power=power, thickness_m=0.1, melts_k=273.15)
+    usual = run(kind, stays, thickness_m=0.1)
+
+    assert snow[:399] == pytest.approx(0.0, abs=1e-3)
+    # the power lasts half a step longer, and keeps the face at 0 C
+    assert snow[420:] == pytest.approx(usual[420:], abs=0.02)

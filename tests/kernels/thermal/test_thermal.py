@@ -86,7 +86,7 @@ def table():
         facets[i]["power_w_m2"] = row.power_ly_h * table_d1.LANGLEY_PER_HOUR_W_M2
         materials[i] = np.array((1000 * row.density_g_cm3, 4184 * row.specific_heat_cal_g_c,
                                  0.11622 * row.conductivity_cal_cm_h_c, row.visible_emissivity,
-                                 row.thermal_emissivity, row.exposed_area) + (0,) * 6, MATERIAL)
+                                 row.thermal_emissivity, row.exposed_area) + (0,) * 7 + ((0,) * 3,), MATERIAL)
     return facets, materials
 
 
