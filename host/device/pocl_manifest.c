@@ -69,7 +69,8 @@ static bool hash_file(uint64_t *out, const char *path, const char *name)
     return is_good;
 }
 
-/* Calls `visit` with every file that PoCL loads: its path, its name in the folder. */
+/* Calls `visit` with every file that PoCL loads: its path, its name in the folder. What it writes at this
+ * moment, in whichever process, lies in the folder itself and is moved when it is whole. */
 static void visit_files(const char *folder, void (*visit)(manifest *, const char *, const char *),
                         manifest *m)
 {
@@ -77,7 +78,7 @@ static void visit_files(const char *folder, void (*visit)(manifest *, const char
     FTS *walk = fts_open(roots, FTS_PHYSICAL | FTS_NOCHDIR | FTS_NOSTAT, NULL);
 
     for (FTSENT *e; walk && (e = fts_read(walk));)
-        if ((e->fts_info == FTS_F || e->fts_info == FTS_NSOK) &&
+        if (e->fts_level > 1 && (e->fts_info == FTS_F || e->fts_info == FTS_NSOK) &&
             (file_name_ends(e->fts_name, ".so") || !strcmp(e->fts_name, "program.bc")))
             visit(m, e->fts_path, e->fts_path + strlen(folder) + 1);
     if (walk) fts_close(walk);

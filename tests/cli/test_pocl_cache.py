@@ -122,3 +122,15 @@ def test_kernels_that_a_killed_run_left_unfinished_are_built_again(program, warm
     done = trace(program, tmp_path, cache)
 
     assert done.returncode == 0 and done.stderr.count("a damaged kernel of PoCL") == count > 0
+
+
+def test_what_another_process_writes_at_this_moment_is_left_alone(program, warm, tmp_path):
+    cache = tmp_path / "cache"
+    shutil.copytree(warm, cache)
+    written = cache / "tempfile_1a2b3c.so"
+    written.write_bytes(b"")
+
+    done = trace(program, tmp_path, cache)
+
+    assert done.returncode == 0 and done.stderr == ""
+    assert written.exists()
