@@ -377,6 +377,24 @@ static inline thermal_elimination thermal_eliminate(const thermal_body *body,
     return e;
 }
 
+/* What nodes take in for the time of a step, with what stands behind them, but for the front. */
+static inline void thermal_slab_right(lanes right[THERMAL_NODES], const thermal_state *state,
+                                      const thermal_elimination *e, const thermal_nodes *nodes,
+                                      thermal_flux back)
+{
+    const int last = THERMAL_NODES - 1;
+
+    right[last] =
+        e->between[last] * (state->node_k[last - 1] - state->node_k[last]) +
+        e->passed[0] * (back.w_m2 + e->back_slope * (state->back_k - state->node_k[last]));
+    for (int j = last - 1; j > 0; j--)
+        right[j] =
+            fma(e->passed[j + 1], right[j + 1],
+                e->between[j] * ((state->node_k[j - 1] - state->node_k[j]) +
+                                 nodes->onward[j] * (state->node_k[j + 1] - state->node_k[j])));
+    right[0] = fma(e->passed[1], right[1], e->between[1] * (state->node_k[1] - state->node_k[0]));
+}
+
 /* The front's face has no capacity: with its flux F - S (T - T_front) and H from it to node 0, node 0
  * rises by (right_0 (H + S) + H F') / (taken_0 (H + S) + H S). One division serves both. */
 static inline void thermal_step_slab(thermal_state *state, const thermal_body *body,
@@ -395,15 +413,7 @@ static inline void thermal_step_slab(thermal_state *state, const thermal_body *b
     lanes right[THERMAL_NODES], rise;
 
     if (lanes_any(body->back > (lanes)0.0f)) back = thermal_back_flux(body, load, state->back_k);
-    right[last] =
-        e->between[last] * (state->node_k[last - 1] - state->node_k[last]) +
-        e->passed[0] * (back.w_m2 + e->back_slope * (state->back_k - state->node_k[last]));
-    for (int j = last - 1; j > 0; j--)
-        right[j] =
-            fma(e->passed[j + 1], right[j + 1],
-                e->between[j] * ((state->node_k[j - 1] - state->node_k[j]) +
-                                 nodes->onward[j] * (state->node_k[j + 1] - state->node_k[j])));
-    right[0] = fma(e->passed[1], right[1], e->between[1] * (state->node_k[1] - state->node_k[0]));
+    thermal_slab_right(right, state, e, nodes, back);
     rise = fma(right[0], both,
                before * (front.w_m2 + front.w_m2_k * (state->front_k - state->node_k[0]))) *
            (quotient * both);
