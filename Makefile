@@ -234,7 +234,7 @@ test: test-deps all $(HOST_TESTS) $(BUILD)/exact-rays $(ATMOSPHERE_AT_HAND)
 	@set -e; : >$(SKIPPED); for t in $(HOST_TESTS); do \
 	    $(RUN_SANITIZED) $$t >$(BUILD)/one.log 2>&1 || { cat $(BUILD)/one.log; exit 1; }; \
 	    cat $(BUILD)/one.log; sed -n "s,^skipped: ,$${t##*/}: ,p" $(BUILD)/one.log >>$(SKIPPED); done
-	$(RUN_SANITIZED) $(BUILD)/exact-rays 2000 airport hall terrain-54450
+	$(RUN_SANITIZED) $(BUILD)/exact-rays 2000 airport hall walls terrain-54450
 	$(RUN_SANITIZED) RADSIG=$(PROGRAM) RADSIG_SKIPPED=$(SKIPPED) $(PYTEST) $(TESTS)
 
 # Defects that no answer shows: accesses out of bounds, undefined behaviour, leaks. gcc does not count
@@ -310,7 +310,7 @@ EXACT_RAYS := $(patsubst %.c,$(BUILD)/%.o,$(wildcard bench/exact_rays/*.c)) $(BU
 
 ## exact-rays: check rays against a search in double precision over all triangles; BENCH_MESHES
 exact-rays: deps scenes $(BUILD)/exact-rays
-	$(BUILD)/exact-rays 100000 $(BENCH_MESHES)
+	$(BUILD)/exact-rays 100000 $(BENCH_MESHES) walls
 
 $(BUILD)/exact-rays: $(EXACT_RAYS) $(BUILD)/library.a
 	$(CXX) $(LDFLAGS) -o $@ $^ $(LDLIBS) -lpthread

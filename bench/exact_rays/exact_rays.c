@@ -45,6 +45,11 @@ static void make_rays(float *rays, uint32_t count, const bench_mesh *mesh)
             low[k] = fminf(low[k], mesh->position[i][k]);
             high[k] = fmaxf(high[k], mesh->position[i][k]);
         }
+    for (int k = 0; k < 3 && mesh->reach_m > 0; k++) {
+        const float middle = .5f * (low[k] + high[k]);
+        low[k] = fmaxf(low[k], middle - mesh->reach_m);
+        high[k] = fminf(high[k], middle + mesh->reach_m);
+    }
     for (uint32_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++) {
             const double size = (double)high[k] - (double)low[k];

@@ -150,6 +150,28 @@ out:
     return rc;
 }
 
+/* Walls of 20 km side by side, each with boards a centimetre thick on both sides. */
+static status make_walls(bench_mesh *m)
+{
+    static const float eye[3] = {-20, -200, 12}, target[3] = {30, 100, 0};
+    enum { WALLS = 40, BOARDS = 100 };
+    status rc = STATUS_OK;
+
+    TRY(reserve(m, 8 * WALLS * (1 + BOARDS), 6 * WALLS * (1 + BOARDS)));
+    m->reach_m = 20;
+    for (int w = 0; w < WALLS; w++) {
+        const float x = 2.5f * (float)w;
+        add_box(m, (float[3]){x, -10000, 0}, (float[3]){x + .2f, 10000, 3}, false);
+        for (int i = 0; i < BOARDS; i++) {
+            const float y = 200 * ((float)i - .5f * BOARDS + scatter(i, w));
+            add_box(m, (float[3]){x - .01f, y, .5f}, (float[3]){x + .21f, y + 20, 2.5f}, false);
+        }
+    }
+    look(m, eye, target);
+out:
+    return rc;
+}
+
 /* Cuts the quads as the tree's builder does. */
 static status cut(bench_mesh *m)
 {
@@ -184,10 +206,12 @@ status bench_mesh_make(bench_mesh **out, const char *name)
         TRY(read_airport(m));
     else if (!strcmp(name, "hall"))
         TRY(make_hall(m));
+    else if (!strcmp(name, "walls"))
+        TRY(make_walls(m));
     else if (!strncmp(name, terrain, sizeof terrain - 1))
         TRY(make_terrain(m, strtoul(name + sizeof terrain - 1, NULL, 10)));
     else
-        NEED(false, STATUS_ARGUMENT, "mesh '%s': expected airport, hall or terrain-N", name);
+        NEED(false, STATUS_ARGUMENT, "mesh '%s': expected airport, hall, walls or terrain-N", name);
     TRY(cut(m));
     *out = m;
     m = NULL;

@@ -20,7 +20,7 @@ static inline void hit_lanes_corners(global const bvh_block *blocks, const ray_p
     for (int k = 0; k < 3; k++) out[v][k] = (lanes)0.0f;
     for (uint i = 0; i < LANES_WIDTH; i++) {
         if (met->facet[i] == RECORD_NONE) continue;
-        global const bvh_block *block = blocks + met->triangle[i] / 8;
+        global const bvh_block *block = blocks + (met->triangle[i] & ~RAY_LONG) / 8;
         UNROLL
         for (int v = 0; v < 3; v++) UNROLL
         for (int k = 0; k < 3; k++)
@@ -87,13 +87,12 @@ static inline void hit_lanes_set_points(const lanes corner[3][3], const lanes or
 {
     for (uint i = 0; i < LANES_WIDTH; i++) {
         float vertex[3][3], from[3], along[3], right[3];
-        if (met->facet[i] == RECORD_NONE) continue;
+        if (!(met->triangle[i] & RAY_LONG)) continue;
         for (int k = 0; k < 3; k++) {
             for (int v = 0; v < 3; v++) vertex[v][k] = ((const float *)&corner[v][k])[i];
             from[k] = ((const float *)&origin[k])[i];
             along[k] = ((const float *)&direction[k])[i];
         }
-        if (!triangle_is_long(vertex)) continue;
         const triangle_shear shear = triangle_shear_of(along);
         if (!triangle_point(vertex, from, along, &shear, right)) continue;
         for (int k = 0; k < 3; k++) LANES_SET(point[k], i, right[k]);

@@ -23,10 +23,11 @@ typedef struct ray {
 typedef struct ray_hit {
     float range;   /* INFINITY for a miss */
     uint facet;    /* RECORD_NONE for a miss */
-    uint triangle; /* block * 8 + lane */
+    uint triangle; /* block * 8 + lane, and RAY_LONG where it is long */
 } ray_hit;
 
 #define RAY_DONE 0xffffffffu
+#define RAY_LONG 0x80000000u
 
 /* Boxes are entered up to this many times the nearest range. */
 #define RAY_SLACK (1.0f + 9.5367431640625e-7f)
@@ -117,6 +118,12 @@ static inline uint ray_long_of(const uint leaf)
     const uint count = leaf >> 1 & BVH_LONG_LIMIT;
 
     return count < BVH_LONG_LIMIT ? count : 8;
+}
+
+/* What a hit tells of a leaf's triangle. */
+static inline uint ray_triangle_of(const uint leaf, const uint lane)
+{
+    return (ray_block_of(leaf) * 8 + lane) | (lane < ray_long_of(leaf) ? RAY_LONG : 0);
 }
 
 /* A triangle of a block. */
@@ -234,7 +241,7 @@ static inline void ray_visit_leaf(const ray_frame *f, global const bvh_block *bl
             const uint i = 31 - clz(mask & -mask);
             const uint facet = blocks[b].facet[i];
             if (met[i] > hit->range || (met[i] == hit->range && facet >= hit->facet)) continue;
-            *hit = (ray_hit){met[i], facet, b * 8 + i};
+            *hit = (ray_hit){met[i], facet, ray_triangle_of(leaf, i)};
         }
     }
 }
@@ -328,7 +335,7 @@ static inline hit_record ray_record(global const bvh_block *blocks, const ray *r
     float vertex[3][3], weight[3], range, along = 0;
 
     if (hit.facet == RECORD_NONE) return record;
-    ray_triangle(blocks + hit.triangle / 8, hit.triangle % 8, vertex);
+    ray_triangle(blocks + (hit.triangle & ~RAY_LONG) / 8, hit.triangle % 8, vertex);
     triangle_meet(vertex, r->origin, &shear, &range, weight);
     triangle_normal(vertex, record.normal);
     UNROLL
@@ -337,7 +344,7 @@ static inline hit_record ray_record(global const bvh_block *blocks, const ray *r
             (weight[0] * vertex[0][k] + weight[1] * vertex[1][k]) + weight[2] * vertex[2][k];
         along += record.normal[k] * r->direction[k];
     }
-    if (triangle_is_long(vertex))
+    if (hit.triangle & RAY_LONG)
         triangle_point(vertex, r->origin, r->direction, &shear, record.point);
     UNROLL
     for (int k = 0; k < 3 && along > 0; k++) record.normal[k] = -record.normal[k];

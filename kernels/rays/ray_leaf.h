@@ -66,7 +66,7 @@ INLINE void ray_leaf_closest(const ray_lanes *f, global const bvh_block *blocks,
             const float16 range = i + k < long_count
                                       ? ray_lanes_range(f, blocks + b, i + k, own, best->range)
                                       : e[k].distance / e[k].determinant;
-            ray_leaf_take(best, range, own, b * 8 + i + k, blocks[b].facet[i + k]);
+            ray_leaf_take(best, range, own, ray_triangle_of(leaf, i + k), blocks[b].facet[i + k]);
         }
     }
 }
@@ -113,7 +113,8 @@ INLINE void ray_leaf_closest_two(const ray_lanes *f, global const bvh_block *blo
         if (among_long) met |= mask_of_16(inside) & among_long;
         while (met) {
             const uint i = ray_lanes_next(&met), side = i / 8;
-            ray_hit hit = {((const float *)&range)[i], blocks[b].facet[i % 8], b * 8 + i % 8};
+            ray_hit hit = {((const float *)&range)[i], blocks[b].facet[i % 8],
+                           ray_triangle_of(leaf, i % 8)};
             if (among_long >> i & 1)
                 hit.range = ray_lanes_range_of_one(f, blocks + b, lane[side], axis, i % 8,
                                                    ray_leaf_get(best, lane[side]).range);

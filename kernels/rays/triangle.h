@@ -209,8 +209,8 @@ static inline uint triangle_is_long(const float vertex[3][3])
 
 /* Finds where a ray meets a long triangle from its range, where that must be looked at once more; returns 0
  * where the weights of the corners tell it well enough. */
-static inline uint triangle_point(const float vertex[3][3], const float origin[3],
-                                  const float direction[3], const triangle_shear *s, float out[3])
+RARE uint triangle_point(const float vertex[3][3], const float origin[3], const float direction[3],
+                         const triangle_shear *s, float out[3])
 {
     const triangle_sight t = triangle_see(vertex, origin, s);
 

@@ -207,3 +207,20 @@ def test_wrong_usage_ends_with_2(arguments):
 
 def test_a_byte_order_mark_before_the_rays_is_passed_over(plane):
     assert answers(plane, rays="\ufeff0 0 10 0 0 -1\n") == ["10,0"]
+
+
+def test_a_long_wall_stops_a_ray_and_shows_the_poster_before_it(tmp_path):
+    wall = tmp_path / "wall.obj"
+    wall.write_text("v 0.5 -5000 0\nv 0.5 -5000 0.5\nv 0.5 5000 0.5\nv 0.5 5000 0\nf 1 2 3 4\n")
+    poster = tmp_path / "poster.obj"
+    poster.write_text("v 0.49 -1 0\nv 0.49 -1 0.5\nv 0.49 1 0.5\nv 0.49 1 0\nf 1 2 3 4\n")
+    at = np.random.default_rng(2).uniform((-0.98, -0.24), (0.98, 0.24), (2000, 2))
+    rays = "".join("0 0 0.25 0.49 %.9g %.9g\n" % tuple(yz) for yz in at)
+
+    leaving = answers(wall, rays="0 0 0.0001 0.498630 0.829878 0.250380\n")
+    before = [line.split(",")[1] for line in answers(wall, poster, rays=rays)]
+
+    t_m, facet = leaving[0].split(",")
+    length = np.linalg.norm((0.498630, 0.829878, 0.250380))
+    assert facet == "0" and float(t_m) == pytest.approx(length * 0.5 / 0.498630, rel=1e-6)
+    assert set(before) == {"1"}
