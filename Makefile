@@ -259,7 +259,7 @@ test-threads: deps $(PROGRAM) scenes $(THREADED:%=$(BUILD)/tests/%)
 	$(THREADED_RENDER) --size 48x32 --exr
 	POCL_DEVICES="pthread pthread" $(THREADED_RENDER) --size 160x160 --mode thesis --device 0,1
 	$(RUN_SANITIZED) timeout --preserve-status -s INT 5 $(PROGRAM) render scenes/airport/scene.toml \
-	    -o $(BUILD)/threads --size 512x512; test $$? = 130
+	    -o $(BUILD)/threads --size 4000x3000; test $$? = 130
 	rm -r $(BUILD)/threads
 
 # PoCL and LLVM keep memory until the process ends, and LLVM puts a signal stack of its own in the place of
