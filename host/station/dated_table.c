@@ -36,35 +36,6 @@ out:
     return rc;
 }
 
-static status take_whole(const table *t, int field, const char *name, int low, int high, int *out)
-{
-    status rc = STATUS_OK;
-    const char *text = field < 0 ? "0" : csv_row_field(&t->row, (size_t)field);
-    double value;
-
-    if (!number_read(text, &value) || value < low || value > high || value != floor(value))
-        TRY(record_file_reject(t->file, "%s from %d to %d, not '%.40s'", name, low, high, text));
-    *out = (int)value;
-out:
-    return rc;
-}
-
-static status take_numbers(const table *t, weather_date *d)
-{
-    status rc = STATUS_OK;
-    const dated_fields *f = &t->head.fields;
-    int hour, minute;
-
-    TRY(take_whole(t, f->year, "a year", 1800, 2200, &d->year));
-    TRY(take_whole(t, f->month, "a month", 1, 12, &d->month));
-    TRY(take_whole(t, f->day, "a day of the month", 1, weather_month_days(d->month), &d->day));
-    TRY(take_whole(t, f->hour, "an hour", 0, 24, &hour));
-    TRY(take_whole(t, f->minute, "a minute", 0, 60, &minute));
-    d->hour = hour + minute / 60.0;
-out:
-    return rc;
-}
-
 /* Sets a row's date by the clock of the file. */
 static status take_date(table *t, weather_date *d)
 {
@@ -73,7 +44,9 @@ static status take_date(table *t, weather_date *d)
     const bool has_both = f->date >= 0 && f->time >= 0;
     double offset_h;
 
-    if (f->year >= 0) return take_numbers(t, d);
+    if (f->year >= 0)
+        return weather_date_take(
+            d, &t->row, (const int[]){f->year, f->month, f->day, f->hour, f->minute}, t->file);
     const char *text = csv_row_field(&t->row, (size_t)(has_both ? f->date : f->stamp));
     if (!date_text_read(text, d, &offset_h) ||
         (has_both && !date_text_add_time(csv_row_field(&t->row, (size_t)f->time), d)))

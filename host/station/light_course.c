@@ -1,6 +1,6 @@
 #include "station/light_course.h"
 
-#include "weather/sun_span.h"
+#include "station/light_split.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -8,7 +8,6 @@
 
 enum { STEP_S = 30 };
 
-#define MOST_OF_CLEAR 1.1
 #define LOW_SUN_COS 0.25881904510252074 /* of 75 degrees from the zenith */
 
 typedef struct course {
@@ -53,8 +52,8 @@ static status open_course(course *c, const site *place)
         const sun_span sun = sun_span_moment(place, c->first_s + (double)i * WEATHER_INTERVAL_S);
         const double level = sun.direct_w_m2 * sun.cos_zenith + sun.diffuse_w_m2;
         c->height[i] = sun.cos_zenith;
-        c->cap[i] =
-            MOST_OF_CLEAR * (c->quantity == WEATHER_SERIES_DIRECT_W_M2 ? sun.direct_w_m2 : level);
+        c->cap[i] = LIGHT_MOST_OF_CLEAR *
+                    (c->quantity == WEATHER_SERIES_DIRECT_W_M2 ? sun.direct_w_m2 : level);
     }
 out:
     return rc;

@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#define MOST_OF_CLEAR 1.1
-
 double light_split_diffuse_fraction(double clearness)
 {
     const double k = fmax(0.0, clearness);
@@ -17,7 +15,7 @@ double light_split_diffuse_fraction(double clearness)
 static double beam(const sun_span *sun, double level_w_m2)
 {
     if (sun->direct_w_m2 <= 0.0 || level_w_m2 <= 0.0) return 0.0;
-    return fmin(MOST_OF_CLEAR * sun->direct_w_m2, level_w_m2 / sun->cos_zenith);
+    return fmin(LIGHT_MOST_OF_CLEAR * sun->direct_w_m2, level_w_m2 / sun->cos_zenith);
 }
 
 bool light_split_complete(const sun_span *sun, double global_w_m2, double *direct_w_m2,

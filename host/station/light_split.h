@@ -8,6 +8,9 @@
 
 #include <stdbool.h>
 
+/* The most that light of a record is taken for, of the clear sky's. */
+#define LIGHT_MOST_OF_CLEAR 1.1
+
 /* Diffuse fraction of the global irradiance, for a clearness index: global over extraterrestrial. */
 double light_split_diffuse_fraction(double clearness);
 

@@ -80,35 +80,9 @@ out:
     return rc;
 }
 
-static status take_whole(const epw *e, int field, const char *name, int low, int high, int *out)
-{
-    status rc = STATUS_OK;
-    const char *text = csv_row_field(&e->row, (size_t)field);
-    double value;
-
-    if (!number_read(text, &value) || value < low || value > high || value != floor(value))
-        TRY(record_file_reject(e->file, "%s from %d to %d, not '%s'", name, low, high, text));
-    *out = (int)value;
-out:
-    return rc;
-}
-
-static status take_date(const epw *e, weather_date *d)
-{
-    status rc = STATUS_OK;
-    int hour;
-
-    TRY(take_whole(e, 0, "a year", 1800, 2200, &d->year));
-    TRY(take_whole(e, 1, "a month", 1, 12, &d->month));
-    TRY(take_whole(e, 2, "a day of the month", 1, weather_month_days(d->month), &d->day));
-    TRY(take_whole(e, 3, "an hour", 0, 24, &hour));
-    d->hour = hour;
-out:
-    return rc;
-}
-
 static status read_row(epw *e)
 {
+    static const int date_fields[] = {0, 1, 2, 3, -1};
     status rc = STATUS_OK;
     weather_sample sample = {0};
     weather_date d;
@@ -117,7 +91,7 @@ static status read_row(epw *e)
     if (e->row.count < NEEDED_FIELDS)
         TRY(record_file_reject(e->file, "an hour of %d fields or more with commas between",
                                NEEDED_FIELDS));
-    TRY(take_date(e, &d));
+    TRY(weather_date_take(&d, &e->row, date_fields, e->file));
     for (int q = 0; q < WEATHER_SERIES_COUNT; q++)
         TRY(column_read(&sample.value[q], &e->place[q], csv_row_field(&e->row, e->place[q].field),
                         e->file, &e->gaps));

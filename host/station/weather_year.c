@@ -1,5 +1,7 @@
 #include "station/weather_year.h"
 
+#include "base/number.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,6 +24,36 @@ weather_year weather_year_around(const site *place, double utc_offset_h)
 int weather_month_days(int month)
 {
     return month == 2 ? 29 : month == 4 || month == 6 || month == 9 || month == 11 ? 30 : 31;
+}
+
+/* A field's whole number; 0 where the place is below 0. */
+static status take_whole(int *out, const csv_row *row, int place, const record_file *file,
+                         const char *name, int low, int high)
+{
+    const char *text = place < 0 ? "0" : csv_row_field(row, (size_t)place);
+    double value;
+
+    if (!number_read(text, &value) || value < low || value > high || value != floor(value))
+        return record_file_reject(file, "%s from %d to %d, not '%.40s'", name, low, high, text);
+    *out = (int)value;
+    return STATUS_OK;
+}
+
+status weather_date_take(weather_date *out, const csv_row *row, const int place[5],
+                         const record_file *file)
+{
+    status rc = STATUS_OK;
+    int hour, minute;
+
+    TRY(take_whole(&out->year, row, place[0], file, "a year", 1800, 2200));
+    TRY(take_whole(&out->month, row, place[1], file, "a month", 1, 12));
+    TRY(take_whole(&out->day, row, place[2], file, "a day of the month", 1,
+                   weather_month_days(out->month)));
+    TRY(take_whole(&hour, row, place[3], file, "an hour", 0, 24));
+    TRY(take_whole(&minute, row, place[4], file, "a minute", 0, 60));
+    out->hour = hour + minute / 60.0;
+out:
+    return rc;
 }
 
 /* The year of a time by the scene's clock. */

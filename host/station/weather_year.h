@@ -2,6 +2,7 @@
 #ifndef WEATHER_YEAR_H
 #define WEATHER_YEAR_H
 
+#include "files/csv_row.h"
 #include "sky/site.h"
 #include "station/weather_series.h"
 
@@ -28,6 +29,12 @@ weather_year weather_year_around(const site *place, double utc_offset_h);
 
 /* The most days that a month has in any year. */
 int weather_month_days(int month);
+
+/* Takes a date from a row's fields.
+ *   place   of year, month, day, hour, minute; of the last two below 0: 0
+ * Fails with STATUS_FORMAT, at the row's line, where one is no whole number or out of its range. */
+status weather_date_take(weather_date *out, const csv_row *row, const int place[5],
+                         const record_file *file);
 
 /* Takes note of a row's date, and sets its time in the year in which it is nearest to the scene's days, by
  * month and day. Returns whether it is kept. */
