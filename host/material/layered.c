@@ -71,9 +71,9 @@ static column column_of(const facet_record *facet, const material_record *materi
 static void fill_ladder(layered_record *out, const column *c)
 {
     double edge_m = 0.0, before = 0.0;
-    double node_m = c->depth_m * (NODE_RATIO - 1.0) / (pow(NODE_RATIO, LAYERED_NODES) - 1.0);
+    double node_m = c->depth_m * (NODE_RATIO - 1.0) / (pow(NODE_RATIO, FACET_NODES) - 1.0);
 
-    for (int j = 0; j < LAYERED_NODES; j++) {
+    for (int j = 0; j < FACET_NODES; j++) {
         const double to_centre = resistance_to(c, edge_m + 0.5 * node_m);
         out->capacity_j_m2_k[j] = (float)(capacity_to(c, edge_m + node_m) - capacity_to(c, edge_m));
         out->conductance_w_m2_k[j] = (float)(1.0 / (to_centre - before));
@@ -81,7 +81,7 @@ static void fill_ladder(layered_record *out, const column *c)
         edge_m += node_m;
         node_m *= NODE_RATIO;
     }
-    out->conductance_w_m2_k[LAYERED_NODES] = (float)(1.0 / (resistance_to(c, c->depth_m) - before));
+    out->conductance_w_m2_k[FACET_NODES] = (float)(1.0 / (resistance_to(c, c->depth_m) - before));
 }
 
 /* How heat along the facet is spread: by the thickness that nodes have of the front's material. */
@@ -89,9 +89,9 @@ static void fill_lateral_fraction(layered_record *out, const column *c)
 {
     const double front_m = c->layer[0].thickness_m;
     double edge_m = 0.0;
-    double node_m = c->depth_m * (NODE_RATIO - 1.0) / (pow(NODE_RATIO, LAYERED_NODES) - 1.0);
+    double node_m = c->depth_m * (NODE_RATIO - 1.0) / (pow(NODE_RATIO, FACET_NODES) - 1.0);
 
-    for (int j = 0; j < LAYERED_NODES; j++) {
+    for (int j = 0; j < FACET_NODES; j++) {
         const double part_m = fmin(node_m, front_m - edge_m);
         out->lateral_fraction[j] = (float)(fmax(0.0, part_m) / front_m);
         edge_m += node_m;

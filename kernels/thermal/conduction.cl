@@ -40,7 +40,7 @@ static void go_alone(const patch_run *p, uint first, const sub_step *s)
     const layered_body body = group->body;
     const layered_elimination elimination = group->elimination;
     const thermal_load load = load_of(s, group);
-    layered_state state = group->state;
+    facet_state state = group->state;
     const layered_front front = layered_front_of(&state, &body, &load, s->air, s->step_s);
     const lanes now_k = layered_lateral_k(&state, &body);
 
@@ -60,7 +60,7 @@ static void go_together(const patch_run *p, uint first, const sub_step *s)
     const thermal_load load = load_of(s, group);
     const lanes rise_k = load_row(p->rows.rise_k, first) - load_row(p->rows.alone_k, first);
     const lanes lateral_w_m2 = rise_k / load_row(p->rows.gain, first);
-    layered_state state = group->state;
+    facet_state state = group->state;
 
     layered_step(&state, &body, &elimination, &load, s->air, lateral_w_m2, s->step_s);
     group->state = state;
@@ -135,9 +135,9 @@ static bool has_moved(const patch_run *p)
     bool moves = false;
 
     for (uint first = p->first; first < p->end; first += LANES_WIDTH) {
-        const layered_state now = p->groups[first / LANES_WIDTH].state;
-        const layered_state before = p->groups[first / LANES_WIDTH].day_before;
-        moves |= lanes_any(layered_difference(&now, &before) > (lanes)LAYERED_SETTLED_K);
+        const facet_state now = p->groups[first / LANES_WIDTH].state;
+        const facet_state before = p->groups[first / LANES_WIDTH].day_before;
+        moves |= lanes_any(facet_state_difference(&now, &before) > (lanes)FACET_SETTLED_K);
     }
     return moves;
 }
@@ -147,7 +147,7 @@ static bool has_moved(const patch_run *p)
 static uint go_on(const patch_run *p, conduction_progress *at, global float *out_w_m2)
 {
     const thermal_span span = p->world.span;
-    const uint day = layered_steps_a_day(span);
+    const uint day = facet_steps_a_day(span);
 
     if (at->days == 0) begin(p);
     if (at->days == 0) at->is_settled = span.step_count <= day;
@@ -157,7 +157,7 @@ static uint go_on(const patch_run *p, conduction_progress *at, global float *out
     if (at->is_done) return 0;
     const uint work = go(p, ++at->step, out_w_m2);
     if (at->is_settled || at->step < day) return work;
-    at->is_settled = at->days == LAYERED_DAYS || !has_moved(p);
+    at->is_settled = at->days == FACET_SETTLING_DAYS || !has_moved(p);
     if (!at->is_settled) at->step = 0;
     return work;
 }

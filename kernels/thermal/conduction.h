@@ -11,7 +11,7 @@
 /* LANES_WIDTH facets of a patch, on their way from one record of the weather to the next. */
 typedef struct conduction_group {
     layered_body body;
-    layered_state state, day_before;
+    facet_state state, day_before;
     thermal_load before, after;
     layered_elimination elimination; /* for sub-steps of this way */
     lanes sum_w_m2;                  /* of what came along the facet, over sub-steps */

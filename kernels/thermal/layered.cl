@@ -14,7 +14,7 @@ SHARED_BODY kernel void layered(const thermal_span span, global const layered_re
                              .loads = TABLES_GIVEN(LOAD_TABLES),
                              .exchange = TABLES_GIVEN(EXCHANGE_TABLES)};
     const layered_body body = layered_body_of(facets, first, span.facet_count);
-    layered_state state = layered_start(w, &body);
+    facet_state state = layered_start(w, &body);
     thermal_load before = layered_load_at(w, &body, 0);
     lanes earlier_k = state.front_k;
     for (uint step = 0; step < span.first_step + span.row_count; step++) {

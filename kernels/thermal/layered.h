@@ -12,9 +12,6 @@
 
 #include "kernels/thermal/thermal.h"
 
-#define LAYERED_NODES 8
-#define LAYERED_DAYS 40 /* of the start, at most */
-#define LAYERED_SETTLED_K 0.01f
 #define LAYERED_RAIN_J_M3_K 4.182e6f /* density times specific heat of water */
 
 #define LAYERED_ADIABATIC 0u
@@ -24,8 +21,8 @@
 /* A facet. The ladder runs from the front: conductance 0 from the face to node 0, j from node j - 1
  * to node j, the last from the last node to the back face. */
 typedef struct layered_record {
-    float capacity_j_m2_k[LAYERED_NODES];
-    float conductance_w_m2_k[LAYERED_NODES + 1];
+    float capacity_j_m2_k[FACET_NODES];
+    float conductance_w_m2_k[FACET_NODES + 1];
     float normal[3];
     float absorptance, emissivity;
     float power_w_m2;
@@ -37,8 +34,8 @@ typedef struct layered_record {
     float stated_temperature_k; /* 0: to be computed */
     uint material;
     uint lateral_column; /* of rows of heat along the facet, counted from 1; 0: none */
-    float lateral_fraction[LAYERED_NODES]; /* of that heat, for each node; sum 1 */
-    float sky_fraction;                    /* of the view */
+    float lateral_fraction[FACET_NODES]; /* of that heat, for each node; sum 1 */
+    float sky_fraction;                  /* of the view */
     uint received_column; /* of rows of longwave that reaches the front, counted from 1; 0: none */
     float melts_k;        /* the surface gets no warmer; 0: it does not melt */
     uint unused;
@@ -47,20 +44,14 @@ RECORD_SIZE(layered_record, 176);
 
 typedef struct layered_body {
     thermal_body face; /* capacity and conductance are not used */
-    lanes capacity[LAYERED_NODES], conductance[LAYERED_NODES + 1];
+    lanes capacity[FACET_NODES], conductance[FACET_NODES + 1];
     lanes is_stated, back_k;
     lanes day_s_m, night_s_m, film_limit;
     lanes stated_k;
-    lanes lateral_fraction[LAYERED_NODES];
+    lanes lateral_fraction[FACET_NODES];
     uint material[LANES_WIDTH];
     uint lateral_column[LANES_WIDTH], received_column[LANES_WIDTH];
 } layered_body;
-
-typedef struct layered_state {
-    lanes front_k, back_k;
-    lanes node_k[LAYERED_NODES];
-    lanes film_kg_m2;
-} layered_state;
 
 /* What the air does to a wet surface: the same for all lanes. */
 typedef struct layered_air {
@@ -75,9 +66,9 @@ typedef struct layered_air {
 static inline void layered_set_body(layered_body *body, int lane, const layered_record *record)
 {
     for (int i = 0; i < 3; i++) LAYERED_SET(body, face.normal[i], lane, record->normal[i]);
-    for (int i = 0; i < LAYERED_NODES; i++)
+    for (int i = 0; i < FACET_NODES; i++)
         LAYERED_SET(body, capacity[i], lane, record->capacity_j_m2_k[i]);
-    for (int i = 0; i <= LAYERED_NODES; i++)
+    for (int i = 0; i <= FACET_NODES; i++)
         LAYERED_SET(body, conductance[i], lane, record->conductance_w_m2_k[i]);
     LAYERED_SET(body, face.two_sided, lane, (float)record->two_sided);
     LAYERED_SET(body, face.slab, lane, 1.0f);
@@ -92,7 +83,7 @@ static inline void layered_set_body(layered_body *body, int lane, const layered_
     LAYERED_SET(body, night_s_m, lane, record->resistance_night_s_m);
     LAYERED_SET(body, film_limit, lane, record->film_limit_kg_m2);
     LAYERED_SET(body, stated_k, lane, record->stated_temperature_k);
-    for (int i = 0; i < LAYERED_NODES; i++)
+    for (int i = 0; i < FACET_NODES; i++)
         LAYERED_SET(body, lateral_fraction[i], lane, record->lateral_fraction[i]);
     LAYERED_SET(body, face.melts_k, lane,
                 record->melts_k > 0.0f ? record->melts_k : THERMAL_NEVER_K);
@@ -155,8 +146,8 @@ static inline moisture_flux layered_latent(const layered_body *body, layered_air
 }
 
 typedef struct layered_elimination {
-    lanes passed[LAYERED_NODES + 1]; /* share of what stands behind that node j passes on */
-    lanes inverse[LAYERED_NODES];
+    lanes passed[FACET_NODES + 1]; /* share of what stands behind that node j passes on */
+    lanes inverse[FACET_NODES];
     lanes front_taken;          /* what all nodes take up per kelvin of node 0 */
     lanes back_slope, back_way; /* and 1 / what the back's face gives inwards and outwards */
 } layered_elimination;
@@ -165,16 +156,16 @@ typedef struct layered_elimination {
 static inline layered_elimination layered_eliminate(const layered_body *body, lanes back_slope,
                                                     float step_s)
 {
-    const int last = LAYERED_NODES - 1;
-    const lanes none = 0.0f, one = 1.0f, behind = body->conductance[LAYERED_NODES];
+    const int last = FACET_NODES - 1;
+    const lanes none = 0.0f, one = 1.0f, behind = body->conductance[FACET_NODES];
     layered_elimination e;
     lanes taken;
 
     e.back_slope = back_slope;
     e.back_way = 1.0f / (behind + back_slope);
-    e.passed[LAYERED_NODES] = body->is_stated != none ? one : behind * e.back_way;
+    e.passed[FACET_NODES] = body->is_stated != none ? one : behind * e.back_way;
     taken = body->capacity[last] / step_s +
-            (body->is_stated != none ? behind : back_slope * e.passed[LAYERED_NODES]);
+            (body->is_stated != none ? behind : back_slope * e.passed[FACET_NODES]);
     for (int j = last; j > 0; j--) {
         e.inverse[j] = 1.0f / (body->conductance[j] + taken);
         e.passed[j] = body->conductance[j] * e.inverse[j];
@@ -194,7 +185,7 @@ typedef struct layered_front {
     lanes fraction; /* of what reaches the face that goes on to node 0 */
 } layered_front;
 
-static inline layered_front layered_front_of(const layered_state *s, const layered_body *body,
+static inline layered_front layered_front_of(const facet_state *s, const layered_body *body,
                                              const thermal_load *load, layered_air air,
                                              float step_s)
 {
@@ -210,7 +201,7 @@ static inline layered_front layered_front_of(const layered_state *s, const layer
 }
 
 /* What rain adds up to its own limit, and vapour takes or leaves. */
-static inline void layered_step_film(layered_state *s, const layered_body *body,
+static inline void layered_step_film(facet_state *s, const layered_body *body,
                                      const layered_front *front, lanes old_front_k, layered_air air,
                                      float step_s)
 {
@@ -234,7 +225,7 @@ static inline void layered_step_film(layered_state *s, const layered_body *body,
 
 /* Rise of node 0 where the face would melt.
  *   right   of the node, with what comes through a face that does not */
-static inline lanes layered_melting_rise(const layered_state *s, const layered_body *body,
+static inline lanes layered_melting_rise(const facet_state *s, const layered_body *body,
                                          const layered_elimination *e, const layered_front *front,
                                          lanes right, lanes rise)
 {
@@ -249,33 +240,33 @@ static inline lanes layered_melting_rise(const layered_state *s, const layered_b
 }
 
 /* Nodes of the front's own material melt too. */
-static inline void layered_melt(layered_state *s, const layered_body *body)
+static inline void layered_melt(facet_state *s, const layered_body *body)
 {
     const lanes none = 0.0f;
 
     if (!lanes_any(thermal_melts(&body->face))) return;
     s->front_k = fmin(s->front_k, body->face.melts_k);
-    for (int j = 0; j < LAYERED_NODES; j++)
+    for (int j = 0; j < FACET_NODES; j++)
         s->node_k[j] = body->lateral_fraction[j] > none ? fmin(s->node_k[j], body->face.melts_k)
                                                         : s->node_k[j];
 }
 
 /* One implicit step; film and face change with it.
  *   lateral_w_m2   heat that comes along the facet */
-static inline void layered_step(layered_state *s, const layered_body *body,
+static inline void layered_step(facet_state *s, const layered_body *body,
                                 const layered_elimination *e, const thermal_load *load,
                                 layered_air air, lanes lateral_w_m2, float step_s)
 {
-    const int last = LAYERED_NODES - 1;
-    const lanes behind = body->conductance[LAYERED_NODES], before = body->conductance[0];
+    const int last = FACET_NODES - 1;
+    const lanes behind = body->conductance[FACET_NODES], before = body->conductance[0];
     const layered_front front = layered_front_of(s, body, load, air, step_s);
     const thermal_flux back = thermal_back_flux(&body->face, load, s->back_k);
     const lanes none = 0.0f, old_front_k = s->front_k;
-    const lanes from_back = body->is_stated != none
-                                ? behind * (body->back_k - s->node_k[last])
-                                : e->passed[LAYERED_NODES] *
-                                      (back.w_m2 + e->back_slope * (s->back_k - s->node_k[last]));
-    lanes right[LAYERED_NODES], rise;
+    const lanes from_back =
+        body->is_stated != none
+            ? behind * (body->back_k - s->node_k[last])
+            : e->passed[FACET_NODES] * (back.w_m2 + e->back_slope * (s->back_k - s->node_k[last]));
+    lanes right[FACET_NODES], rise;
 
     right[last] = body->conductance[last] * (s->node_k[last - 1] - s->node_k[last]) + from_back +
                   body->lateral_fraction[last] * lateral_w_m2;
@@ -305,11 +296,11 @@ static inline void layered_step(layered_state *s, const layered_body *body,
 }
 
 /* Temperature that goes with heat along the facet: the mean over the nodes of its own material. */
-static inline lanes layered_lateral_k(const layered_state *s, const layered_body *body)
+static inline lanes layered_lateral_k(const facet_state *s, const layered_body *body)
 {
     lanes sum = 0.0f;
 
-    for (int j = 0; j < LAYERED_NODES; j++) sum += body->lateral_fraction[j] * s->node_k[j];
+    for (int j = 0; j < FACET_NODES; j++) sum += body->lateral_fraction[j] * s->node_k[j];
     return sum;
 }
 
@@ -317,14 +308,14 @@ static inline lanes layered_lateral_k(const layered_state *s, const layered_body
 static inline lanes layered_lateral_gain(const layered_body *body, const layered_elimination *e,
                                          const layered_front *front)
 {
-    lanes right[LAYERED_NODES], rise, sum;
+    lanes right[FACET_NODES], rise, sum;
 
-    right[LAYERED_NODES - 1] = body->lateral_fraction[LAYERED_NODES - 1];
-    for (int j = LAYERED_NODES - 2; j >= 0; j--)
+    right[FACET_NODES - 1] = body->lateral_fraction[FACET_NODES - 1];
+    for (int j = FACET_NODES - 2; j >= 0; j--)
         right[j] = body->lateral_fraction[j] + e->passed[j + 1] * right[j + 1];
     rise = right[0] / (e->front_taken + front->fraction * front->all.w_m2_k);
     sum = body->lateral_fraction[0] * rise;
-    for (int j = 1; j < LAYERED_NODES; j++) {
+    for (int j = 1; j < FACET_NODES; j++) {
         rise = right[j] * e->inverse[j] + e->passed[j] * rise;
         sum += body->lateral_fraction[j] * rise;
     }
@@ -333,7 +324,7 @@ static inline lanes layered_lateral_gain(const layered_body *body, const layered
 
 /* Goes from one record of the weather to the next. Humidity, rain and day are held like the sun.
  *   lateral_w_m2   heat along the facet in the first and in the second half */
-static inline void layered_advance(layered_state *state, const layered_body *body,
+static inline void layered_advance(facet_state *state, const layered_body *body,
                                    const thermal_load *before, const thermal_load *after,
                                    layered_air air_before, layered_air air_after,
                                    const lanes lateral_w_m2[2], float step_s)
@@ -351,28 +342,28 @@ static inline void layered_advance(layered_state *state, const layered_body *bod
 }
 
 /* A profile without currents but for what passes through: from face to face by resistance. */
-static inline void layered_profile(layered_state *out, const layered_body *body, lanes front_k,
+static inline void layered_profile(facet_state *out, const layered_body *body, lanes front_k,
                                    lanes back_k)
 {
-    lanes resistance[LAYERED_NODES], all = 0.0f;
+    lanes resistance[FACET_NODES], all = 0.0f;
 
-    for (int j = 0; j < LAYERED_NODES; j++) {
+    for (int j = 0; j < FACET_NODES; j++) {
         all += 1.0f / body->conductance[j];
         resistance[j] = all;
     }
-    all += 1.0f / body->conductance[LAYERED_NODES];
-    for (int j = 0; j < LAYERED_NODES; j++)
+    all += 1.0f / body->conductance[FACET_NODES];
+    for (int j = 0; j < FACET_NODES; j++)
         out->node_k[j] = front_k + (back_k - front_k) * (resistance[j] / all);
     out->front_k = front_k;
     out->back_k = back_k;
 }
 
 /* A guess, without evaporation: the start's days improve it. */
-static inline layered_state layered_guess(const layered_body *body, const thermal_load *load)
+static inline facet_state layered_guess(const layered_body *body, const thermal_load *load)
 {
     const lanes none = 0.0f;
     const lanes air_k = (lanes)load->air_k;
-    layered_state state;
+    facet_state state;
 
     layered_profile(&state, body, air_k, body->is_stated != none ? body->back_k : air_k);
     state.film_kg_m2 = none;
@@ -381,25 +372,16 @@ static inline layered_state layered_guess(const layered_body *body, const therma
 
 /* Moves the nodes to where the means of a day put them, so that deep ones need no month: each keeps
  * its own swing and takes the mean of the profile between the faces' means. */
-static inline void layered_settle(layered_state *state, const layered_body *body,
-                                  const layered_state *mean)
+static inline void layered_settle(facet_state *state, const layered_body *body,
+                                  const facet_state *mean)
 {
     const lanes none = 0.0f;
     const lanes passes = body->is_stated != none || body->face.back != none ? 1.0f + none : none;
-    layered_state target;
+    facet_state target;
 
     layered_profile(&target, body, mean->front_k,
                     mean->front_k + passes * (mean->back_k - mean->front_k));
-    for (int j = 0; j < LAYERED_NODES; j++) state->node_k[j] += target.node_k[j] - mean->node_k[j];
-}
-
-static inline void layered_choose(layered_state *state, lanes_mask mask, const layered_state *other)
-{
-    state->front_k = mask ? other->front_k : state->front_k;
-    state->back_k = mask ? other->back_k : state->back_k;
-    state->film_kg_m2 = mask ? other->film_kg_m2 : state->film_kg_m2;
-    for (int j = 0; j < LAYERED_NODES; j++)
-        state->node_k[j] = mask ? other->node_k[j] : state->node_k[j];
+    for (int j = 0; j < FACET_NODES; j++) state->node_k[j] += target.node_k[j] - mean->node_k[j];
 }
 
 #endif

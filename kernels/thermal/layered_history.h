@@ -73,8 +73,8 @@ static inline lanes layered_lateral_at(layered_world w, const layered_body *body
 }
 
 /* Goes through the step that ends at `step`; returns the load after it. */
-static inline thermal_load layered_go(layered_world w, const layered_body *body,
-                                      layered_state *state, thermal_load before, uint step)
+static inline thermal_load layered_go(layered_world w, const layered_body *body, facet_state *state,
+                                      thermal_load before, uint step)
 {
     const thermal_load after = layered_load_at(w, body, step);
     const lanes lateral_w_m2[2] = {layered_lateral_at(w, body, 2 * step - 2),
@@ -85,52 +85,35 @@ static inline thermal_load layered_go(layered_world w, const layered_body *body,
     return after;
 }
 
-static inline uint layered_steps_a_day(thermal_span span)
-{
-    return (uint)(86400.0f / span.step_s + 0.5f);
-}
-
 /* The first day once: state afterwards, and its means. */
 static inline void layered_go_through_day(layered_world w, const layered_body *body,
-                                          layered_state *state, layered_state *mean)
+                                          facet_state *state, facet_state *mean)
 {
-    const uint steps = layered_steps_a_day(w.span);
+    const uint steps = facet_steps_a_day(w.span);
     const float fraction = 1.0f / (float)steps;
     thermal_load before = layered_load_at(w, body, 0);
 
-    mean->front_k = mean->back_k = (lanes)0.0f;
-    for (int j = 0; j < LAYERED_NODES; j++) mean->node_k[j] = (lanes)0.0f;
+    *mean = facet_state_zero();
     for (uint step = 1; step <= steps; step++) {
         before = layered_go(w, body, state, before, step);
-        mean->front_k += fraction * state->front_k;
-        mean->back_k += fraction * state->back_k;
-        for (int j = 0; j < LAYERED_NODES; j++) mean->node_k[j] += fraction * state->node_k[j];
+        facet_state_add(mean, fraction, state);
     }
 }
 
-/* The most that a node differs by. */
-static inline lanes layered_difference(const layered_state *a, const layered_state *b)
-{
-    lanes most = 0.0f;
-
-    for (int j = 0; j < LAYERED_NODES; j++) most = fmax(most, fabs(a->node_k[j] - b->node_k[j]));
-    return most;
-}
-
-static inline layered_state layered_start(layered_world w, const layered_body *body)
+static inline facet_state layered_start(layered_world w, const layered_body *body)
 {
     const thermal_load first = layered_load_at(w, body, 0);
-    layered_state state = layered_guess(body, &first), mean;
+    facet_state state = layered_guess(body, &first), mean;
     lanes_mask moves = state.front_k == state.front_k;
 
-    if (w.span.step_count <= layered_steps_a_day(w.span)) return state;
-    for (int i = 0; i < LAYERED_DAYS && lanes_any(moves); i++) {
-        layered_state next = state;
+    if (w.span.step_count <= facet_steps_a_day(w.span)) return state;
+    for (int i = 0; i < FACET_SETTLING_DAYS && lanes_any(moves); i++) {
+        facet_state next = state;
         layered_go_through_day(w, body, &next, &mean);
         layered_settle(&next, body, &mean);
-        const lanes most = layered_difference(&next, &state);
-        layered_choose(&state, moves, &next);
-        moves = moves && most > (lanes)LAYERED_SETTLED_K;
+        const lanes most = facet_state_difference(&next, &state);
+        facet_state_choose(&state, moves, &next);
+        moves = moves && most > (lanes)FACET_SETTLED_K;
     }
     return state;
 }

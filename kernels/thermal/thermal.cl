@@ -32,7 +32,7 @@ SHARED_BODY kernel void thermal(const thermal_span span, const uint thesis,
     lanes stated_k;
     set_bodies(&body, &stated_k, w.material, span, first, facets, materials);
     thermal_way way = thermal_way_of(&w, &body, thesis ? 1.0f : THERMAL_NODE_RATIO);
-    thermal_state state = thermal_start(&body, &way.after, &way.nodes);
+    facet_state state = thermal_start(&body, &way.after, &way.nodes);
     if (!thesis) thermal_find_start(&w, &body, &way, &state);
     lanes earlier_k = state.front_k;
     for (uint step = 0; step < span.first_step + span.row_count; step++) {

@@ -21,9 +21,9 @@
 #include "kernels/lanes.h"
 #include "kernels/records.h"
 #include "kernels/thermal/convection.h"
+#include "kernels/thermal/facet_state.h"
 #include "kernels/thermal/moisture.h"
 
-#define THERMAL_NODES 8
 #define THERMAL_SUB_STEP_S 300.0f /* at most */
 #define THERMAL_GROUND_REFLECTANCE 0.15f
 
@@ -32,11 +32,11 @@
 
 /* How slabs are cut into nodes, of a thickness and a conductance of 1. */
 typedef struct thermal_nodes {
-    float fraction[THERMAL_NODES]; /* of the thickness */
-    float centre[THERMAL_NODES];
-    float way[THERMAL_NODES +
-              1]; /* conductances: face to node 0, node j - 1 to j, last to the back */
-    float onward[THERMAL_NODES]; /* way[j + 1] / way[j] */
+    float fraction[FACET_NODES]; /* of the thickness */
+    float centre[FACET_NODES];
+    float
+        way[FACET_NODES + 1];  /* conductances: face to node 0, node j - 1 to j, last to the back */
+    float onward[FACET_NODES]; /* way[j + 1] / way[j] */
 } thermal_nodes;
 
 /* Each node `ratio` times as thick as the one before it; exact for 1. */
@@ -45,17 +45,17 @@ static inline thermal_nodes thermal_nodes_of(float ratio)
     thermal_nodes n;
     float all = 0.0f, part = 1.0f, edge = 0.0f, before = 0.0f;
 
-    for (int j = 0; j < THERMAL_NODES; j++, part *= ratio) all += part;
+    for (int j = 0; j < FACET_NODES; j++, part *= ratio) all += part;
     part = 1.0f / all;
-    for (int j = 0; j < THERMAL_NODES; j++, part *= ratio) {
+    for (int j = 0; j < FACET_NODES; j++, part *= ratio) {
         n.fraction[j] = part;
         n.centre[j] = edge + 0.5f * part;
         n.way[j] = 1.0f / (n.centre[j] - before);
         before = n.centre[j];
         edge += part;
     }
-    n.way[THERMAL_NODES] = 1.0f / (1.0f - before);
-    for (int j = 0; j < THERMAL_NODES; j++) n.onward[j] = n.way[j + 1] / n.way[j];
+    n.way[FACET_NODES] = 1.0f / (1.0f - before);
+    for (int j = 0; j < FACET_NODES; j++) n.onward[j] = n.way[j + 1] / n.way[j];
     return n;
 }
 
@@ -82,12 +82,6 @@ typedef struct thermal_load {
     float air_k, rain_k;
     convection_air air;
 } thermal_load;
-
-typedef struct thermal_state {
-    lanes front_k, back_k;
-    lanes node_k[THERMAL_NODES];
-    lanes film_kg_m2; /* of dew on the front */
-} thermal_state;
 
 /* A flux into a face and how much it falls per kelvin that the face gets warmer. */
 typedef struct thermal_flux {
@@ -238,7 +232,7 @@ static inline thermal_flux thermal_front_flux(const thermal_body *body, const th
 
 /* The same with dew, which is the part of it that `out_dew` tells. */
 static inline thermal_flux thermal_wet_flux(const thermal_body *body, const thermal_load *load,
-                                            moisture_air air, const thermal_state *state,
+                                            moisture_air air, const facet_state *state,
                                             float step_s, moisture_flux *out_dew)
 {
     const lanes convection_w_m2_k =
@@ -254,7 +248,7 @@ static inline thermal_flux thermal_wet_flux(const thermal_body *body, const ther
 }
 
 /* The film after a step in which the front was `rise_k` warmer in the mean than it began. */
-static inline void thermal_step_film(thermal_state *state, moisture_air air, lanes began_k,
+static inline void thermal_step_film(facet_state *state, moisture_air air, lanes began_k,
                                      const moisture_flux *dew, lanes rise_k, float step_s)
 {
     if (air.wet_below_k > 0.0f)
@@ -275,21 +269,20 @@ static inline thermal_flux thermal_back_flux(const thermal_body *body, const the
     return flux;
 }
 
-static inline void thermal_melt(thermal_state *state, const thermal_body *body)
+static inline void thermal_melt(facet_state *state, const thermal_body *body)
 {
     if (!lanes_any(thermal_melts(body))) return;
     state->front_k = fmin(state->front_k, body->melts_k);
-    for (int j = 0; j < THERMAL_NODES; j++)
-        state->node_k[j] = fmin(state->node_k[j], body->melts_k);
+    for (int j = 0; j < FACET_NODES; j++) state->node_k[j] = fmin(state->node_k[j], body->melts_k);
 }
 
 /* Steady balance by Newton's method: both faces of a slab, or one temperature. Starts at the
  * air temperature and stays there where nothing is exchanged. */
-static inline thermal_state thermal_start(const thermal_body *body, const thermal_load *load,
-                                          const thermal_nodes *nodes)
+static inline facet_state thermal_start(const thermal_body *body, const thermal_load *load,
+                                        const thermal_nodes *nodes)
 {
     const lanes none = 0.0f, one = 1.0f, through = body->conductance_w_m2_k;
-    thermal_state state;
+    facet_state state;
 
     state.front_k = state.back_k = (lanes)load->air_k;
     state.film_kg_m2 = none;
@@ -308,7 +301,7 @@ static inline thermal_state thermal_start(const thermal_body *body, const therma
         state.front_k += body->slab != none ? front_rise : lump;
         state.back_k += body->slab != none ? back_rise : lump;
     }
-    for (int i = 0; i < THERMAL_NODES; i++)
+    for (int i = 0; i < FACET_NODES; i++)
         state.node_k[i] = state.front_k + nodes->centre[i] * (state.back_k - state.front_k);
     thermal_melt(&state, body);
     return state;
@@ -317,7 +310,7 @@ static inline thermal_state thermal_start(const thermal_body *body, const therma
 /* One node: T <- Teq + (T - Teq) exp(-Lambda dt / C), exact for a constant load, so that thin
  * sheets need no shorter steps.
  *   step_k_m2_w   dt / C */
-static inline void thermal_step_lump(thermal_state *state, const thermal_body *body,
+static inline void thermal_step_lump(facet_state *state, const thermal_body *body,
                                      const thermal_load *load, moisture_air air, lanes step_k_m2_w,
                                      float step_s)
 {
@@ -347,26 +340,25 @@ static inline void thermal_step_lump(thermal_state *state, const thermal_body *b
  * a sum without a difference, good to the last digit however thin the slab. It changes with the
  * back's slope alone and is computed once in a step of the weather. */
 typedef struct thermal_elimination {
-    lanes between[THERMAL_NODES + 1]; /* G_j, the first and the last from a face to its node */
-    lanes back_slope;                 /* of the back's flux */
-    lanes back_way;                   /* 1 / (the last G + back_slope) */
-    lanes passed[THERMAL_NODES];      /* G_j / (G_j + taken_j); of 0: of the back's face */
-    lanes inverse[THERMAL_NODES];     /* 1 / (G_j + taken_j); of node 0: taken_0 itself */
+    lanes between[FACET_NODES + 1]; /* G_j, the first and the last from a face to its node */
+    lanes back_slope;               /* of the back's flux */
+    lanes back_way;                 /* 1 / (the last G + back_slope) */
+    lanes passed[FACET_NODES];      /* G_j / (G_j + taken_j); of 0: of the back's face */
+    lanes inverse[FACET_NODES];     /* 1 / (G_j + taken_j); of node 0: taken_0 itself */
 } thermal_elimination;
 
 static inline thermal_elimination thermal_eliminate(const thermal_body *body,
                                                     const thermal_nodes *nodes, lanes back_slope,
                                                     float step_s)
 {
-    const int last = THERMAL_NODES - 1;
+    const int last = FACET_NODES - 1;
     thermal_elimination e;
     lanes taken;
 
-    for (int j = 0; j <= THERMAL_NODES; j++)
-        e.between[j] = body->conductance_w_m2_k * nodes->way[j];
+    for (int j = 0; j <= FACET_NODES; j++) e.between[j] = body->conductance_w_m2_k * nodes->way[j];
     e.back_slope = back_slope;
-    e.back_way = 1.0f / (e.between[THERMAL_NODES] + back_slope);
-    e.passed[0] = e.between[THERMAL_NODES] * e.back_way;
+    e.back_way = 1.0f / (e.between[FACET_NODES] + back_slope);
+    e.passed[0] = e.between[FACET_NODES] * e.back_way;
     taken = body->capacity_j_m2_k * nodes->fraction[last] / step_s + e.passed[0] * back_slope;
     for (int j = last; j > 0; j--) {
         e.inverse[j] = 1.0f / (e.between[j] + taken);
@@ -378,11 +370,11 @@ static inline thermal_elimination thermal_eliminate(const thermal_body *body,
 }
 
 /* What nodes take in for the time of a step, with what stands behind them, but for the front. */
-static inline void thermal_slab_right(lanes right[THERMAL_NODES], const thermal_state *state,
+static inline void thermal_slab_right(lanes right[FACET_NODES], const facet_state *state,
                                       const thermal_elimination *e, const thermal_nodes *nodes,
                                       thermal_flux back)
 {
-    const int last = THERMAL_NODES - 1;
+    const int last = FACET_NODES - 1;
 
     right[last] =
         e->between[last] * (state->node_k[last - 1] - state->node_k[last]) +
@@ -397,11 +389,11 @@ static inline void thermal_slab_right(lanes right[THERMAL_NODES], const thermal_
 
 /* The front's face has no capacity: with its flux F - S (T - T_front) and H from it to node 0, node 0
  * rises by (right_0 (H + S) + H F') / (taken_0 (H + S) + H S). One division serves both. */
-static inline void thermal_step_slab(thermal_state *state, const thermal_body *body,
+static inline void thermal_step_slab(facet_state *state, const thermal_body *body,
                                      const thermal_elimination *e, const thermal_nodes *nodes,
                                      const thermal_load *load, moisture_air air, float step_s)
 {
-    const int last = THERMAL_NODES - 1;
+    const int last = FACET_NODES - 1;
     const lanes before = e->between[0];
     const lanes began_k = state->front_k;
     moisture_flux dew;
@@ -410,7 +402,7 @@ static inline void thermal_step_slab(thermal_state *state, const thermal_body *b
     const lanes all = e->inverse[0] * both + before * front.w_m2_k;
     const lanes quotient = 1.0f / (both * all);
     thermal_flux back = {0.0f, 0.0f};
-    lanes right[THERMAL_NODES], rise;
+    lanes right[FACET_NODES], rise;
 
     if (lanes_any(body->back > (lanes)0.0f)) back = thermal_back_flux(body, load, state->back_k);
     thermal_slab_right(right, state, e, nodes, back);
@@ -433,8 +425,7 @@ static inline void thermal_step_slab(thermal_state *state, const thermal_body *b
         (front.w_m2 - before * (state->front_k - state->node_k[0])) * (quotient * all);
     thermal_melt(state, body);
     state->back_k +=
-        (back.w_m2 - e->between[THERMAL_NODES] * (state->back_k - state->node_k[last])) *
-        e->back_way;
+        (back.w_m2 - e->between[FACET_NODES] * (state->back_k - state->node_k[last])) * e->back_way;
     thermal_step_film(state, air, began_k, &dew, state->front_k - began_k, step_s);
 }
 
@@ -464,7 +455,7 @@ static inline moisture_air thermal_sub_air(const thermal_way *way, int i)
 }
 
 /* The slab's implicit step takes the load at its end, the lump's at its middle. */
-static inline void thermal_advance_slab(thermal_state *state, const thermal_body *body,
+static inline void thermal_advance_slab(facet_state *state, const thermal_body *body,
                                         const thermal_way *way)
 {
     const int count = way->count;
@@ -480,7 +471,7 @@ static inline void thermal_advance_slab(thermal_state *state, const thermal_body
     }
 }
 
-static inline void thermal_advance_lump(thermal_state *state, const thermal_body *body,
+static inline void thermal_advance_lump(facet_state *state, const thermal_body *body,
                                         const thermal_way *way)
 {
     const int count = way->count;
@@ -497,11 +488,11 @@ static inline void thermal_advance_lump(thermal_state *state, const thermal_body
 }
 
 /* Slabs and lumps side by side: each goes its own way, the other's is not taken. */
-static inline void thermal_advance(thermal_state *state, const thermal_body *body,
+static inline void thermal_advance(facet_state *state, const thermal_body *body,
                                    const thermal_way *way)
 {
     const lanes none = 0.0f;
-    thermal_state as_lump = *state;
+    facet_state as_lump = *state;
 
     if (lanes_any(body->slab == none)) thermal_advance_lump(&as_lump, body, way);
     if (lanes_any(body->slab != none)) thermal_advance_slab(state, body, way);

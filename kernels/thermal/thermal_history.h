@@ -5,10 +5,6 @@
 #include "kernels/thermal/facet_switches.h"
 #include "kernels/thermal/thermal.h"
 
-#define THERMAL_DAYS 40 /* of the start, at most */
-#define THERMAL_SETTLED_K 0.01f
-#define THERMAL_DAY_S 86400.0f
-
 #ifdef __OPENCL_C_VERSION__
 
 /* What acts on facets `first` to `first + LANES_WIDTH - 1`. */
@@ -44,8 +40,8 @@ static inline thermal_way thermal_way_of(const thermal_world *w, const thermal_b
 }
 
 /* Goes through the step that ends at `step`. */
-static inline void thermal_go(const thermal_world *w, const thermal_body *body,
-                              thermal_state *state, thermal_way *way, uint step)
+static inline void thermal_go(const thermal_world *w, const thermal_body *body, facet_state *state,
+                              thermal_way *way, uint step)
 {
     way->before = way->after;
     way->air_before = way->air_after;
@@ -54,32 +50,23 @@ static inline void thermal_go(const thermal_world *w, const thermal_body *body,
     thermal_advance(state, body, way);
 }
 
-static inline uint thermal_steps_a_day(thermal_span span)
-{
-    return (uint)(THERMAL_DAY_S / span.step_s + 0.5f);
-}
-
 /* The first day once: state afterwards, and its means; `way` begins and ends at the first record. */
 static inline void thermal_go_through_day(const thermal_world *w, const thermal_body *body,
-                                          thermal_state *state, thermal_way way,
-                                          thermal_state *mean)
+                                          facet_state *state, thermal_way way, facet_state *mean)
 {
-    const uint steps = thermal_steps_a_day(w->span);
+    const uint steps = facet_steps_a_day(w->span);
     const float fraction = 1.0f / (float)steps;
 
-    mean->front_k = mean->back_k = mean->film_kg_m2 = (lanes)0.0f;
-    for (int j = 0; j < THERMAL_NODES; j++) mean->node_k[j] = (lanes)0.0f;
+    *mean = facet_state_zero();
     for (uint step = 1; step <= steps; step++) {
         thermal_go(w, body, state, &way, step);
-        mean->front_k += fraction * state->front_k;
-        mean->back_k += fraction * state->back_k;
-        for (int j = 0; j < THERMAL_NODES; j++) mean->node_k[j] += fraction * state->node_k[j];
+        facet_state_add(mean, fraction, state);
     }
 }
 
 /* What both faces lose more per kelvin. */
 static inline lanes thermal_slope(const thermal_body *body, const thermal_load *load,
-                                  const thermal_state *state)
+                                  const facet_state *state)
 {
     return thermal_front_flux(body, load, state->front_k).w_m2_k +
            thermal_back_flux(body, load, state->back_k).w_m2_k;
@@ -88,18 +75,18 @@ static inline lanes thermal_slope(const thermal_body *body, const thermal_load *
 /* Moves a state to where the day drives it, so that thick matter needs no month. Nodes of slabs keep
  * their own swing and take the mean of the profile between the faces' means; a lump goes on as it
  * relaxed, by exp(-Lambda day / C) a day. */
-static inline void thermal_settle(thermal_state *state, const thermal_body *body,
-                                  const thermal_way *way, const thermal_state *earlier,
-                                  const thermal_state *mean)
+static inline void thermal_settle(facet_state *state, const thermal_body *body,
+                                  const thermal_way *way, const facet_state *earlier,
+                                  const facet_state *mean)
 {
     const lanes none = 0.0f, one = 1.0f;
     const lanes behind_k = body->back > none ? mean->back_k : mean->front_k;
     const lanes days =
-        thermal_slope(body, &way->after, state) * THERMAL_DAY_S / body->capacity_j_m2_k;
+        thermal_slope(body, &way->after, state) * FACET_DAY_S / body->capacity_j_m2_k;
     const lanes left = exp(-fmax(days, (lanes)0.01f));
     const lanes on_k = (state->front_k - earlier->front_k) * left / (one - left);
 
-    for (int j = 0; j < THERMAL_NODES; j++)
+    for (int j = 0; j < FACET_NODES; j++)
         state->node_k[j] +=
             mean->front_k + way->nodes.centre[j] * (behind_k - mean->front_k) - mean->node_k[j];
     state->front_k += body->slab != none ? none : on_k;
@@ -107,40 +94,29 @@ static inline void thermal_settle(thermal_state *state, const thermal_body *body
 }
 
 /* The most that anything that stores heat differs by. */
-static inline lanes thermal_difference(const thermal_body *body, const thermal_state *a,
-                                       const thermal_state *b)
+static inline lanes thermal_difference(const thermal_body *body, const facet_state *a,
+                                       const facet_state *b)
 {
     const lanes none = 0.0f;
-    lanes most = 0.0f;
 
-    for (int j = 0; j < THERMAL_NODES; j++) most = fmax(most, fabs(a->node_k[j] - b->node_k[j]));
-    return body->slab != none ? most : fabs(a->front_k - b->front_k);
-}
-
-static inline void thermal_choose(thermal_state *state, lanes_mask mask, const thermal_state *other)
-{
-    state->front_k = mask ? other->front_k : state->front_k;
-    state->back_k = mask ? other->back_k : state->back_k;
-    state->film_kg_m2 = mask ? other->film_kg_m2 : state->film_kg_m2;
-    for (int j = 0; j < THERMAL_NODES; j++)
-        state->node_k[j] = mask ? other->node_k[j] : state->node_k[j];
+    return body->slab != none ? facet_state_difference(a, b) : fabs(a->front_k - b->front_k);
 }
 
 /* Goes through the first day until it ends as it began; what exchanges nothing stays as it is. */
 static inline void thermal_find_start(const thermal_world *w, const thermal_body *body,
-                                      const thermal_way *way, thermal_state *state)
+                                      const thermal_way *way, facet_state *state)
 {
     lanes_mask moves = thermal_slope(body, &way->after, state) > (lanes)0.0f;
-    thermal_state mean;
+    facet_state mean;
 
-    if (w->span.step_count <= thermal_steps_a_day(w->span)) return;
-    for (int i = 0; i < THERMAL_DAYS && lanes_any(moves); i++) {
-        thermal_state next = *state;
+    if (w->span.step_count <= facet_steps_a_day(w->span)) return;
+    for (int i = 0; i < FACET_SETTLING_DAYS && lanes_any(moves); i++) {
+        facet_state next = *state;
         thermal_go_through_day(w, body, &next, *way, &mean);
         thermal_settle(&next, body, way, state, &mean);
         const lanes most = thermal_difference(body, &next, state);
-        thermal_choose(state, moves, &next);
-        moves = moves && most > (lanes)THERMAL_SETTLED_K;
+        facet_state_choose(state, moves, &next);
+        moves = moves && most > (lanes)FACET_SETTLED_K;
     }
 }
 

@@ -24,7 +24,7 @@ static double capacity(const layered_record *r)
 {
     double sum = 0.0;
 
-    for (int i = 0; i < LAYERED_NODES; i++) sum += (double)r->capacity_j_m2_k[i];
+    for (int i = 0; i < FACET_NODES; i++) sum += (double)r->capacity_j_m2_k[i];
     return sum;
 }
 
@@ -32,7 +32,7 @@ static double resistance(const layered_record *r)
 {
     double sum = 0.0;
 
-    for (int i = 0; i <= LAYERED_NODES; i++) sum += 1.0 / (double)r->conductance_w_m2_k[i];
+    for (int i = 0; i <= FACET_NODES; i++) sum += 1.0 / (double)r->conductance_w_m2_k[i];
     return sum;
 }
 
@@ -56,7 +56,7 @@ static void a_node_is_half_as_thick_again_as_the_one_before(void **state)
     const layered_record r = filled(&matter, &asphalt);
 
     (void)state;
-    for (int i = 1; i < LAYERED_NODES; i++)
+    for (int i = 1; i < FACET_NODES; i++)
         assert_near((double)(r.capacity_j_m2_k[i] / r.capacity_j_m2_k[i - 1]), 1.5, 1e-5);
 }
 

@@ -86,7 +86,7 @@ def test_nafems_t3_a_bar_follows_a_sine_at_its_end(opencl):
         for (int i = 0; i < 8; i++) r.capacity_j_m2_k[i] = capacity[i];
         for (int i = 0; i < 9; i++) r.conductance_w_m2_k[i] = conductance[i];
         layered_body body; layered_set_body(&body, 0, &r);
-        layered_state s; layered_profile(&s, &body, 273.15f, 273.15f); s.film_kg_m2 = 0;
+        facet_state s; layered_profile(&s, &body, 273.15f, 273.15f); s.film_kg_m2 = 0;
         forcing_record f = {{.convection_w_m2_k = 1e6f, .pressure_pa = 1e5f, .sun = {{0, 0, 1}},
                             .air_temperature_k = 273.15f}};
         const layered_elimination e = layered_eliminate(&body, 0.0f, 0.05f);
