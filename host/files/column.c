@@ -8,8 +8,8 @@
 #include <string.h>
 #include <strings.h>
 
-static const char *const no_value[] = {"na",   "n/a", "nan", "-nan", "null",
-                                       "none", "-",   "--",  "m",    "*"};
+static const char *const no_value[] = {"na", "n/a", "nan", "-nan", "null", "none",
+                                       "-",  "--",  "m",   "*",    "/",    "///"};
 
 bool column_is_blank(const char *text)
 {
@@ -42,7 +42,7 @@ static bool is_flag(double number)
 
 column_place column_place_at(const column *c, const unit *here, size_t field)
 {
-    const unit *usual = unit_find(c->unit);
+    const unit *usual = unit_find(c->unit, NULL);
 
     return (column_place){c, usual, here ? here : usual, field};
 }

@@ -57,7 +57,7 @@ static const char *copy_field(char **out, const char *at, char separator)
     return end;
 }
 
-/* Makes 20,5 the number that it is where semicolons separate. */
+/* Makes 20,5 the number that it is where commas do not separate. */
 static void set_decimal_point(char *field)
 {
     const size_t sign = strspn(field, "+-"), whole = strspn(field + sign, "0123456789");
@@ -86,8 +86,9 @@ status csv_row_split(csv_row *row, const char *line, char separator)
         line = copy_field(&end, line, separator);
         if (!*line) break;
     }
+    row->width = row->count;
     while (row->count > 0 && !*row->field[row->count - 1]) row->count--;
-    for (size_t i = 0; i < row->count && separator == ';'; i++) set_decimal_point(row->field[i]);
+    for (size_t i = 0; i < row->count && separator != ','; i++) set_decimal_point(row->field[i]);
 out:
     return rc;
 }
@@ -101,6 +102,12 @@ status csv_row_take(csv_row *row, record_file *file, char separator, const char 
     TRY(csv_row_split(row, line, separator));
 out:
     return rc;
+}
+
+status csv_row_check(const csv_row *row, size_t names, const record_file *file)
+{
+    if (row->width >= names && row->count <= names) return STATUS_OK;
+    return record_file_reject(file, "%zu fields, one for each name, not %zu", names, row->width);
 }
 
 const char *csv_row_field(const csv_row *row, size_t place)

@@ -28,7 +28,7 @@ static const struct {
     {{"km/h", "speed", 1.0 / 3.6, 0.0}, "|km/h|kmh-1|kmh|kph|"},
     {{"kn", "speed", 1852.0 / HOUR_S, 0.0}, "|kn|kt|kts|knot|knots|"},
     {{"%", "fraction", 0.01, 0.0}, "|%|percent|pct|"},
-    {{"1", "fraction", 1.0, 0.0}, "|1|-|fraction|0-1|0..1|"},
+    {{"1", "fraction", 1.0, 0.0}, "|1|-|fraction|share|0-1|0..1|"},
     {{"tenths", "fraction", 0.1, 0.0}, "|tenths|tenth|"},
     {{"oktas", "fraction", 0.125, 0.0}, "|oktas|okta|eighths|"},
     {{"W/m2", "irradiance", 1.0, 0.0}, "|w/m2|wm-2|wm2|"},
@@ -40,6 +40,9 @@ static const struct {
     {{"mm", "rain", 1e-3 / HOUR_S, 0.0}, "|mm|kg/m2|kgm-2|"},
     {{"cm", "rain", 1e-2 / HOUR_S, 0.0}, "|cm|"},
     {{"m", "rain", 1.0 / HOUR_S, 0.0}, "|m|"},
+    {{"m", "length", 1.0, 0.0}, "|m|gpm|metres|meters|"},
+    {{"km", "length", 1000.0, 0.0}, "|km|gpkm|"},
+    {{"ft", "length", 0.3048, 0.0}, "|ft|feet|"},
     {{"h", "time", 1.0, 0.0}, "|h|hr|hour|hours|"},
 };
 
@@ -94,12 +97,14 @@ static bool spell(char out[SPELT_SIZE], const char *text)
     return n > 2;
 }
 
-const unit *unit_find(const char *text)
+const unit *unit_find(const char *text, const char *quantity)
 {
     char spelt[SPELT_SIZE];
 
     if (strchr(text, '|') || !spell(spelt, text)) return NULL;
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
-        if (strstr(units[i].spellings, spelt)) return &units[i].is;
+        if (strstr(units[i].spellings, spelt) &&
+            (!quantity || !strcmp(units[i].is.quantity, quantity)))
+            return &units[i].is;
     return NULL;
 }

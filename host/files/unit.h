@@ -8,9 +8,9 @@ typedef struct unit {
     double scale, offset; /* SI = scale x value + offset */
 } unit;
 
-/* Finds a unit by any spelling: with or without a degree sign, `deg`, blanks, `^`, `*` and superscripts,
+/* Finds a unit of a quantity (NULL: of any) by any spelling: with or without a degree sign, `deg`, blanks, `^`, `*` and superscripts,
  * with `/`, `per` or negative exponents: C, degC, Celsius; W/m2, W m-2, w/m^2; %, percent. Sums and
  * depths (Wh/m2, J/m2, mm) are those of an hour. Returns NULL for other texts. */
-const unit *unit_find(const char *text);
+const unit *unit_find(const char *text, const char *quantity);
 
 #endif

@@ -140,7 +140,7 @@ static void nsrdb_unit(char out[NAME_SIZE], const char *name, const csv_row *nam
 
     snprintf(wanted, sizeof wanted, "|%.60s Units|", name);
     const int field = field_named(names, wanted);
-    if (field >= 0 && unit_find(csv_row_field(values, (size_t)field)))
+    if (field >= 0 && unit_find(csv_row_field(values, (size_t)field), NULL))
         snprintf(out, NAME_SIZE, "%s", csv_row_field(values, (size_t)field));
 }
 
@@ -154,14 +154,16 @@ static status find_columns(dated_head *h, const csv_row *row, const csv_row *nam
         const int c = dated_column_find(row->field[i], h->kind == DATED_ERA5, text);
         if (c < 0 || h->place[c].column) continue;
         if (names) nsrdb_unit(text, row->field[i], names, values);
-        const unit *here = unit_find(text), *usual = unit_find(dated_columns[c].unit);
-        if (*text && (!here || strcmp(here->quantity, usual->quantity)))
+        const unit *usual = unit_find(dated_columns[c].unit, NULL);
+        const unit *here = unit_find(text, usual->quantity);
+        if (*text && !here)
             TRY(record_file_reject(file, "another unit of %s, as %s, not '%s'",
                                    dated_columns[c].name, dated_columns[c].unit, text));
         h->place[c] = column_place_at(&dated_columns[c], here, i);
         h->is_pressure_open |= c == WEATHER_SERIES_PRESSURE_PA && !*text;
     }
     h->fields = find_fields(row);
+    h->names = row->count;
 out:
     return rc;
 }

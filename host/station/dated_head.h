@@ -28,6 +28,7 @@ typedef struct dated_fields {
 typedef struct dated_head {
     dated_kind kind;
     char separator;
+    size_t names;                       /* in the line above the rows */
     char name[64];                      /* of the place; "" */
     double latitude_deg, longitude_deg; /* not-a-number where they are not stated */
     double elevation_m, utc_offset_h;   /* the same */

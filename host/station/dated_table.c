@@ -82,7 +82,7 @@ static void settle_pressure(table *t)
 
     if (!t->head.is_pressure_open || !number_read(csv_row_field(&t->row, p->field), &number))
         return;
-    if (number > 2000.0) p->unit = unit_find("Pa");
+    if (number > 2000.0) p->unit = unit_find("Pa", NULL);
     t->head.is_pressure_open = false;
 }
 
@@ -131,6 +131,7 @@ static status read_rows(table *t)
         TRY(csv_row_take(&t->row, t->file, t->head.separator, "a row of weather"));
         if (is_behind_rows(t)) break;
         if (t->row.count == 0) continue;
+        TRY(csv_row_check(&t->row, t->head.names, t->file));
         TRY(take_date(t, &date));
         TRY(take_place(t, &is_kept));
         if (!is_kept) continue;

@@ -57,6 +57,7 @@ typedef struct reader {
     record_file *file;
     csv_row fields;
     char separator;
+    size_t names;
     column_place place[TABLE_COLUMNS]; /* by column */
     column_gaps gaps;
     size_t count;
@@ -84,8 +85,8 @@ static status add_field(reader *r, size_t field)
     if (c < 0)
         TRY(record_file_reject(r->file, "known columns, not '%s': see docs/file-formats.md", name));
     if (r->place[c].column) TRY(record_file_reject(r->file, "one column '%s', not two", name));
-    const unit *here = unit_find(unit_text), *usual = unit_find(columns[c].unit);
-    if (!here || strcmp(here->quantity, usual->quantity))
+    const unit *here = unit_find(unit_text, unit_find(columns[c].unit, NULL)->quantity);
+    if (!here)
         TRY(record_file_reject(r->file, "another unit of %s, as [%s], not [%s]", name,
                                columns[c].unit, unit_text));
     r->place[c] = column_place_at(&columns[c], here, field);
@@ -127,7 +128,8 @@ static status read_header(reader *r)
     line[strcspn(line, "\n")] = '\0';
     r->separator = csv_separator(line);
     TRY(csv_row_take(&r->fields, r->file, r->separator, expected));
-    for (size_t i = 0; i < r->fields.count; i++) TRY(add_field(r, i));
+    r->names = r->fields.count;
+    for (size_t i = 0; i < r->names; i++) TRY(add_field(r, i));
     TRY(check_columns(r));
 out:
     return rc;
@@ -144,6 +146,7 @@ static status read_row(reader *r)
          "no memory for %zu weather records", r->count + 1);
     now = &r->row[r->count];
     TRY(csv_row_take(&r->fields, r->file, r->separator, "a record"));
+    TRY(csv_row_check(&r->fields, r->names, r->file));
     now->line = record_file_line(r->file);
     for (int c = 0; c < TABLE_COLUMNS; c++)
         TRY(column_read(&now->value[c], &r->place[c], csv_row_field(&r->fields, r->place[c].field),

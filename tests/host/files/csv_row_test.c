@@ -37,7 +37,31 @@ static void a_decimal_comma_is_one_where_semicolons_separate(void **state)
 
     (void)state;
     assert_fields("20,5;-3,25;1,2,3;a,b;,5;6,\n", ';', numbers, 6);
+    assert_fields("20,5\t-3,25\t1,2,3\ta,b\t,5\t6,\n", '\t', numbers, 6);
     assert_fields("20,5;-3,25\n", ',', fields, 3);
+}
+
+static void a_row_fits_its_names_unless_it_is_cut_or_has_more(void **state)
+{
+    static const struct {
+        const char *line;
+        status expected;
+    } rows[] = {{"1,2,3", STATUS_OK},   {"1,,", STATUS_OK},      {"1,2,3,,", STATUS_OK},
+                {"1,2", STATUS_FORMAT}, {"1,", STATUS_FORMAT},   {"1,2,3,4", STATUS_FORMAT},
+                {",,3", STATUS_OK},     {"1,,,4", STATUS_FORMAT}};
+    record_file *file = NULL;
+    csv_row row = {0};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        assert_int_equal(record_file_open(&file, text_file(rows[i].line)), STATUS_OK);
+        assert_int_equal(csv_row_take(&row, file, ',', "a row"), STATUS_OK);
+        assert_int_equal(csv_row_check(&row, 3, file), rows[i].expected);
+        record_file_free(file);
+    }
+    assert_non_null(strstr(status_message(), ":1: found '1,,,4', expected 3 fields, one for each "
+                                             "name, not 4"));
+    csv_row_free(&row);
 }
 
 static void a_quote_that_nothing_closes_stands_for_itself(void **state)
@@ -83,6 +107,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blanks_quotes_and_empty_fields_at_the_end_go),
         cmocka_unit_test(a_decimal_comma_is_one_where_semicolons_separate),
+        cmocka_unit_test(a_row_fits_its_names_unless_it_is_cut_or_has_more),
         cmocka_unit_test(a_quote_that_nothing_closes_stands_for_itself),
         cmocka_unit_test(a_long_line_is_taken_whole),
         cmocka_unit_test(the_separator_is_what_stands_there_most),

@@ -41,7 +41,7 @@ static void a_unit_is_found_by_its_spellings(void **state)
 
     (void)state;
     for (size_t i = 0; i < sizeof spellings / sizeof *spellings; i++) {
-        const unit *found = unit_find(spellings[i][0]);
+        const unit *found = unit_find(spellings[i][0], NULL);
         if (!found) fail_msg("'%s' is no unit", spellings[i][0]);
         assert_string_equal(found->name, spellings[i][1]);
     }
@@ -55,7 +55,7 @@ static void what_is_no_unit_is_not_found(void **state)
 
     (void)state;
     for (size_t i = 0; i < sizeof spellings / sizeof *spellings; i++)
-        assert_null(unit_find(spellings[i]));
+        assert_null(unit_find(spellings[i], NULL));
 }
 
 static void values_become_si(void **state)
@@ -68,15 +68,24 @@ static void values_become_si(void **state)
         {"kn", 1.0, 1852.0 / 3600.0},                    /* the nautical mile */
         {"J/m2", 3.6e6, 1000.0},                         /* of an hour */
         {"kWh/m2", 0.5, 500.0},       {"mm", 3.6, 1e-6}, /* of an hour */
+        {"ft", 10000.0, 3048.0},      {"km", 1.5, 1500.0},
         {"oktas", 8.0, 1.0},          {"mbar", 1013.25, 101325.0},
     };
 
     (void)state;
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        const unit *u = unit_find(known[i].unit);
+        const unit *u = unit_find(known[i].unit, NULL);
         assert_near(u->scale * known[i].value + u->offset, known[i].si,
                     2e-8 * known[i].si); /* 273.15 K is a float */
     }
+}
+
+static void a_unit_of_two_quantities_is_the_one_that_is_asked_for(void **state)
+{
+    (void)state;
+    assert_near(unit_find("m", "length")->scale, 1.0, 0.0);
+    assert_near(unit_find("m", "rain")->scale, 1.0 / 3600.0, 1e-18); /* of an hour */
+    assert_null(unit_find("m", "pressure"));
 }
 
 int main(void)
@@ -85,6 +94,7 @@ int main(void)
         cmocka_unit_test(a_unit_is_found_by_its_spellings),
         cmocka_unit_test(what_is_no_unit_is_not_found),
         cmocka_unit_test(values_become_si),
+        cmocka_unit_test(a_unit_of_two_quantities_is_the_one_that_is_asked_for),
     };
 
     return cmocka_run_group_tests(tests, NULL, NULL);
