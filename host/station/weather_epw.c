@@ -12,6 +12,7 @@
 #include <string.h>
 
 #define HOUR_S 3600.0
+#define FAINT_W_M2 130.0 /* of a month's warmest sky: less is a sum of a part of an hour */
 
 enum { LOCATION_FIELDS = 9, NEEDED_FIELDS = 22, HEADER_LINES = 20 };
 
@@ -33,6 +34,9 @@ typedef struct epw {
     weather_series series;
     size_t room;
     record_file *file;
+    int an_hour;       /* records */
+    bool has_parts;    /* of hours */
+    weather_date last; /* row's */
     csv_row row;
     column_place place[WEATHER_SERIES_COUNT];
     column_gaps gaps;
@@ -67,22 +71,51 @@ out:
 static status read_periods(epw *e)
 {
     status rc = STATUS_OK;
-    static const char expected[] = "DATA PERIODS,1,1,... : one record an hour";
+    static const char expected[] = "DATA PERIODS,1,1,... : records an hour that divide 60";
     double an_hour = 0.0;
     int line = 0;
 
     do TRY(csv_row_take(&e->row, e->file, ',', expected));
     while (++line < HEADER_LINES && strcmp(csv_row_field(&e->row, 0), "DATA PERIODS"));
     if (strcmp(csv_row_field(&e->row, 0), "DATA PERIODS") ||
-        !number_read(csv_row_field(&e->row, 2), &an_hour) || an_hour != 1.0)
+        !number_read(csv_row_field(&e->row, 2), &an_hour) || !(an_hour >= 1.0 && an_hour <= 60.0) ||
+        fmod(60.0, an_hour) != 0.0)
         TRY(record_file_reject(e->file, "%s", expected));
+    e->an_hour = (int)an_hour;
+    e->series.span_s = HOUR_S / an_hour;
+out:
+    return rc;
+}
+
+/* The end of a row's span: of an hour, whose minute says nothing, or a part of it that ends at that minute. */
+static status read_date(epw *e, weather_date *out)
+{
+    const bool has_parts = e->an_hour > 1;
+    const int step_min = 60 / e->an_hour, date_fields[] = {0, 1, 2, 3, has_parts ? 4 : -1};
+    status rc = STATUS_OK;
+
+    TRY(weather_date_take(out, &e->row, date_fields, e->file));
+    if (has_parts) {
+        double minute = 0.0; /* a whole number, as weather_date_take found */
+        number_read(csv_row_field(&e->row, 4), &minute);
+        if (out->hour < 1.0 || minute < step_min || fmod(minute, step_min) != 0.0)
+            TRY(record_file_reject(e->file,
+                                   "hours 1 to 24, and minutes %d to 60 by %d at which records end",
+                                   step_min, step_min));
+        out->hour -= 1.0;
+        e->has_parts |= minute < 60.0;
+    }
+    if (out->year == e->last.year && out->month == e->last.month && out->day == e->last.day &&
+        out->hour == e->last.hour)
+        TRY(record_file_reject(
+            e->file, "%d records an hour, as DATA PERIODS states, no two of a time", e->an_hour));
+    e->last = *out;
 out:
     return rc;
 }
 
 static status read_row(epw *e)
 {
-    static const int date_fields[] = {0, 1, 2, 3, -1};
     status rc = STATUS_OK;
     weather_sample sample = {0};
     weather_date d;
@@ -91,7 +124,7 @@ static status read_row(epw *e)
     if (e->row.count < NEEDED_FIELDS)
         TRY(record_file_reject(e->file, "an hour of %d fields or more with commas between",
                                NEEDED_FIELDS));
-    TRY(weather_date_take(&d, &e->row, date_fields, e->file));
+    TRY(read_date(e, &d));
     for (int q = 0; q < WEATHER_SERIES_COUNT; q++)
         TRY(column_read(&sample.value[q], &e->place[q], csv_row_field(&e->row, e->place[q].field),
                         e->file, &e->gaps));
@@ -102,10 +135,30 @@ out:
     return rc;
 }
 
+/* Of parts of hours light and infrared are taken as EnergyPlus takes them: W/m2. */
+static status check_parts(const epw *e)
+{
+    status rc = STATUS_OK;
+    const char *path = e->series.path;
+    double most = NAN;
+
+    if (e->an_hour == 1) return STATUS_OK;
+    NEED(e->has_parts, STATUS_FORMAT, "%s: states %d records an hour, and has one", path,
+         e->an_hour);
+    for (size_t i = 0; i < e->series.count; i++)
+        most = fmax(most, e->series.sample[i].value[WEATHER_SERIES_LONGWAVE_W_M2]);
+    NEED(!(most < FAINT_W_M2), STATUS_FORMAT,
+         "%s: its infrared radiation is at most %g: expected means in W/m2 of several records an "
+         "hour, as EnergyPlus takes them, not sums in Wh/m2",
+         path, most);
+out:
+    return rc;
+}
+
 status weather_epw_read(weather **out, const char *path, const site *place)
 {
     status rc = STATUS_OK;
-    epw e = {.series = {.path = path, .span_s = HOUR_S}};
+    epw e = {.series = {.path = path}};
 
     column_places(e.place, columns, WEATHER_SERIES_COUNT);
     TRY(record_file_open(&e.file, path));
@@ -113,6 +166,7 @@ status weather_epw_read(weather **out, const char *path, const site *place)
     TRY(read_periods(&e));
     e.year = weather_year_around(place, e.series.utc_offset_h);
     while (!record_file_at_end(e.file)) TRY(read_row(&e));
+    TRY(check_parts(&e));
     TRY(weather_year_fit(&e.year, &e.series, &e.room));
     column_gaps_tell(&e.gaps, path);
     TRY(weather_series_history(out, &e.series, place));

@@ -25,12 +25,12 @@ def history(program, folder, name, **site):
 
 
 # EPW: hours 1..24 of local standard time, 5 h behind UTC; the scene's clock is 4 h behind.
-def epw_row(date, hour, **change):
+def epw_row(date, hour, minute=60, **change):
     value = {"year": date.year, "air": 10 + hour / 2, "dew": 5.0, "pressure": 100000, "infrared": 330,
              "direct": 500 if 7 <= hour <= 18 else 0, "diffuse": 90 if 7 <= hour <= 18 else 0,
              "wind": 3.0, "cover": 2, "rain": 0.0, "rh": 999, "global": 9999, **change}
     field = ["0"] * 35
-    field[:6] = [str(value["year"]), str(date.month), str(date.day), str(hour), "60", "?9?9?9E0"]
+    field[:6] = [str(value["year"]), str(date.month), str(date.day), str(hour), str(minute), "?9?9?9E0"]
     for place, name in ((6, "air"), (7, "dew"), (8, "rh"), (9, "pressure"), (12, "infrared"),
                         (13, "global"), (14, "direct"), (15, "diffuse"), (21, "wind"), (23, "cover"),
                         (33, "rain")):
@@ -38,18 +38,18 @@ def epw_row(date, hour, **change):
     return ",".join(field)
 
 
-def epw_text(first=(1992, 6, 21), days=4, change=None, place=(43.1, -77.7)):
-    """`change`: values by (day of the month, hour)."""
+def epw_text(first=(1992, 6, 21), days=4, change=None, place=(43.1, -77.7), minutes=(60,), an_hour=None):
+    """`change`: values by (day of the month, hour) or, of several records an hour, (day, hour, minute)."""
     rows = []
     for i in range(days):
         date = datetime.date(*first) + datetime.timedelta(i)
-        rows += [epw_row(date, hour, **(change or {}).get((date.day, hour), {}))
-                 for hour in range(1, 25)]
+        rows += [epw_row(date, hour, minute, **(change or {}).get((date.day, hour), (change or {}).get((date.day, hour, minute), {})))
+                 for hour in range(1, 25) for minute in minutes]
     return "\r\n".join([
         f"LOCATION,Rochester,NY,USA,hand,725290,{place[0]},{place[1]},-5.0,169.0",
         "DESIGN CONDITIONS,0", "TYPICAL/EXTREME PERIODS,0", "GROUND TEMPERATURES,0",
         "HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0", "COMMENTS 1,by hand", "COMMENTS 2,",
-        "DATA PERIODS,1,1,Data,Sunday, 6/21, 6/24", *rows]) + "\r\n"
+        f"DATA PERIODS,1,{an_hour or len(minutes)},Data,Sunday, 6/21, 6/24", *rows]) + "\r\n"
 
 
 # SURFRAD: samples of three minutes, UTC.

@@ -107,7 +107,7 @@ def test_weather_of_a_far_place_is_warned_about_by_its_name(program, tmp_path, n
 @pytest.mark.parametrize("old, new, message", [
     ("LOCATION,Rochester,NY", "LOCATION,Rochester", "year.epw:1: found 'LOCATION,Rochester,USA"),
     ("-5.0,169.0", "west,169.0", "year.epw:1:"),
-    ("DATA PERIODS,1,1", "DATA PERIODS,1,4", "one record an hour"),
+    ("DATA PERIODS,1,1", "DATA PERIODS,1,7", "records an hour that divide 60"),
     ("1992,6,22,3,60", "1992,13,22,3,60", "year.epw:35: found '1992,13,22,3,60"),
     ("1992,6,22,3,60", "1992,6,22,25,60", "an hour from 0 to 24, not '25'"),
     ("1992,6,22,3,60", "1992,2,30,3,60", "a day of the month from 1 to 29, not '30'"),
