@@ -13,6 +13,9 @@
 
 #define PER_CM2 1e4    /* W cm-2 to W m-2 */
 #define PER_CM1_UM 1e4 /* per cm-1 to per um: nu^2 / 1e4 */
+#define PRINTED 1e-6   /* of wavelengths: their last digit */
+#define LEAST_UM 0.1
+#define MOST_UM 1000.0
 
 enum { LIST_SIZE = 1024 };
 
@@ -42,7 +45,7 @@ static status add_row(tape7 *t, const tape7_head *h, const double row[TAPE7_WANT
                       const record_file *file)
 {
     status rc = STATUS_OK;
-    const double per_um = row[0] * row[0] / PER_CM1_UM * PER_CM2;
+    const double per_um = PER_CM2 * (h->has_wavelengths ? 1.0 : row[0] * row[0] / PER_CM1_UM);
 
     for (int k = 0; k < TAPE7_WANTED; k++) {
         double **to = list_of(t, k);
@@ -58,16 +61,51 @@ out:
     return rc;
 }
 
-/* Even to a thousandth of the step. */
+/* Even to a thousandth of the step, or as they are printed. */
 static bool is_even(const tape7 *t)
 {
-    const double *nu = t->wavenumber_cm1;
+    const double *x = t->wavenumber_cm1;
+    const int n = t->count;
 
-    for (int i = 1; i < t->count; i++)
-        if (!(fabs(nu[i] - nu[0] - i * (nu[1] - nu[0])) <= 1e-3 * (nu[1] - nu[0])) ||
-            nu[1] <= nu[0])
-            return false;
-    return t->count >= 2 && isfinite(nu[0]);
+    if (n < 2 || !isfinite(x[0]) || x[n - 1] <= x[0]) return false;
+    const double step = (x[n - 1] - x[0]) / (n - 1);
+    for (int i = 1; i < n; i++)
+        if (!(fabs(x[i] - x[0] - i * step) <= fmax(1e-3 * step, PRINTED))) return false;
+    return true;
+}
+
+/* Puts rows that are even in wavelength onto wavenumbers that are: as far apart as the rows are where they are
+ * closest, values linear in wavelength between rows. */
+static status turn_to_wavenumbers(tape7 *t)
+{
+    status rc = STATUS_OK;
+    const int rows = t->count;
+    double *const um = t->wavenumber_cm1, *nu = NULL, *value = NULL;
+    const double first = um[0], last = um[rows - 1], step_um = (last - first) / (rows - 1);
+    const int n = 1 + (int)ceil((rows - 1) * last / first - PRINTED);
+    const double low = 1e4 / last, step = (1e4 / first - low) / (n - 1);
+
+    NEED(nu = malloc((size_t)n * sizeof *nu), STATUS_MEMORY, "no memory for a tape7");
+    for (int i = 0; i < n; i++) nu[i] = low + i * step;
+    for (int k = TAPE7_TRANSMISSION; k < TAPE7_WANTED; k++) {
+        double **list = list_of(t, k);
+        if (!*list) continue;
+        NEED(value = malloc((size_t)n * sizeof *value), STATUS_MEMORY, "no memory for a tape7");
+        for (int i = 0; i < n; i++) {
+            const double at = fmin(fmax((1e4 / nu[i] - first) / step_um, 0.0), rows - 1.0);
+            const int row = (int)fmin(at, rows - 2.0);
+            value[i] = (*list)[row] + (at - row) * ((*list)[row + 1] - (*list)[row]);
+        }
+        free(*list);
+        *list = value;
+    }
+    free(um);
+    t->wavenumber_cm1 = nu;
+    t->count = n;
+    nu = NULL;
+out:
+    free(nu);
+    return rc;
 }
 
 /* What the run did not compute is blank: light of the sun, or heat. */
@@ -107,7 +145,14 @@ static status read_rows(tape7 *t, tape7_head *h, record_file *file, const char *
         goto out;
     }
     if (t->count > 0) TRY(fill_blank(t, file));
-    if (!is_even(t)) rc = record_file_reject(file, "wavenumbers that rise evenly");
+    if (!is_even(t))
+        TRY(record_file_reject(file, "%s that rise evenly",
+                               h->has_wavelengths ? "wavelengths" : "wavenumbers"));
+    if (h->has_wavelengths) {
+        if (t->wavenumber_cm1[0] < LEAST_UM || t->wavenumber_cm1[t->count - 1] > MOST_UM)
+            TRY(record_file_reject(file, "wavelengths from %g to %g um", LEAST_UM, MOST_UM));
+        TRY(turn_to_wavenumbers(t));
+    }
     if (!ends)
         status_warn("%s: does not end with -9999. as MODTRAN's files do: is it whole?", path);
 out:
@@ -212,11 +257,10 @@ status tape7_read(tape7 **out, const char *path, int run)
         TRY(pass_rows(&passed, file));
         TRY(find_head(&h, &found, file));
     }
-    if (h.has_wavelengths) {
-        rc = record_file_reject(file, "a spectrum by wavenumber, whose steps are even: filtered "
-                                      "files with FLAGS(1) = W");
-        goto out;
-    }
+    if (h.has_wavelengths && strcmp(h.name[0], "WAVLENMCRN"))
+        TRY(record_file_reject(file,
+                               "a spectrum by wavenumber or by wavelength in um, WAVLEN MCRN, "
+                               "whose radiances are per um: FLAGS(1) = W or M"));
     TRY(read_rows(t, &h, file, path));
     *out = t;
     t = NULL;

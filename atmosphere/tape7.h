@@ -16,7 +16,8 @@ typedef struct tape7 {
 
 /* Reads the table of one run, as versions 3 to 6 write it for each IEMSCT and IMULT. Its columns are found
  * by their names, blanks or underscores in them (FREQ, TOT TRANS, PTH THRML, SOL SCAT, SOLAR), and numbers
- * by the places below them (tape7_head.h).
+ * by the places below them (tape7_head.h). Filtered files by wavelength in um (WAVLEN MCRN), whose values are
+ * per um, are put onto even wavenumbers, linear in wavelength between their rows.
  *   run   counted from 1; 0: the file holds one run alone
  * Fails with STATUS_FORMAT without a head, where a column is blank in some rows alone, where wavenumbers do
  * not rise evenly, and with a list of the runs where there are several and none is named. A file that does

@@ -33,6 +33,22 @@ def sun(depth=True):
         f"{nu:8.2f}  0.9000 1.80E-07 2.00E-07" + 62 * " " * depth + "1.050E-01" * depth + "\n" for nu in NU) + " -9999.\n"
 
 
+UM = [4.0 + i / 8 for i in range(9)]
+SCANNED_NAMES = "  TRANS  PTH THRML  THRML SCT  SURF EMIS   SOL SCAT  SING SCAT  GRND RFLT  DRCT RFLT  TOTAL RAD  REF SOL  SOL@OBS   DEPTH\n"
+
+
+def scanned(kind, um=UM):
+    """A file that MODTRAN's filter writes by wavelength: values are per um, here linear in it."""
+    if kind == "sun":
+        head = "WAVLEN MCRN  TRANS    SOL TR     SOLAR\n"
+        rows = [f"{x:12.6f} 0.9000 {1e-3 * x:.4E} {2e-4 * x:.4E}\n" for x in um]
+    else:
+        head = "WAVLEN MCRN" + SCANNED_NAMES
+        rows = [f"{x:12.6f} {.1 * x:.4f} {1e-5 * x:.4E}            0.0000E+00 {2e-6 * x:.4E} 0.0000E+00 0.0000E+00 0.0000E+00 1.0000E-05 0.00E+00 0.00E+00   0.100\n"
+                for x in um]
+    return head + "".join(rows) + " -9999.\n"
+
+
 def transmission():
     return (CARDS.replace("3    2    0", "3    0    0") + "    FREQ COMBIN    H2O   UMIX\n    CM-1  TRANS  TRANS  TRANS\n"
             + "".join(f"{nu:8.2f} 0.5000 0.6000 0.7000\n" for nu in NU) + " -9999.\n")
@@ -110,6 +126,16 @@ def test_a_file_of_several_runs_is_read_run_by_run(imported):
     assert result["tau1"] == pytest.approx(0.9)
 
 
+def test_a_filtered_table_by_wavelength_is_put_onto_even_wavenumbers(imported):
+    result, said = imported(**{stem: scanned(stem) for stem in ("sun", "path", "sky")})
+    um = 1e4 / numpy.linspace(2000.0, 2500.0, 11)[::-1]  # the rows lie 50 cm-1 apart at 5 um
+
+    assert said == ""
+    assert result["wavelength"] == pytest.approx(um, rel=1e-6)
+    assert result["path"][0] == pytest.approx(numpy.array([.1 * um, 1e-5 * um, 2e-6 * um]).T, rel=2e-4)  # four digits are printed
+    assert result["sun"] == pytest.approx(2e-4 * um, rel=2e-4)
+
+
 @pytest.mark.parametrize("names, files, expected", [
     ({}, {"path": radiance() + radiance(tau=0.75)}, ['path.tp7: holds 2 runs', '"path.tp7#2"', "1 (line 2, 3 rows from 2050 to 2052)", "2 (line 8,"]),
     ({"path_name": "path.tp7#3"}, {"path": radiance() + radiance()}, ["path.tp7: has no run 3", "2 (line 8,"]),
@@ -119,7 +145,10 @@ def test_a_file_of_several_runs_is_read_run_by_run(imported):
     ({}, {"path": radiance().replace("2.0000E-09", "          ", 1)}, ["path.tp7:4", "in all rows or in none"]),
     ({}, {"path": radiance()[:-100]}, ["path.tp7:5", "in all rows or in none"]),
     ({}, {"path": radiance().replace("1.0000E-06", "**********", 1)}, ["path.tp7:3", "columns of numbers"]),
-    ({}, {"path": radiance().replace("    FREQ", " WAVLEN MCRN")}, ["path.tp7:2", "a spectrum by wavenumber"]),
+    ({}, {"path": scanned("path", um=NU)}, ["path.tp7:", "wavelengths from 0.1 to 1000 um"]),
+    ({}, {"path": radiance().replace("    FREQ", " WAVLEN NANO")}, ["path.tp7:2", "WAVLEN MCRN, whose radiances are per um"]),
+    ({}, {"path": scanned("path", um=[4.0, 4.1, 4.3])}, ["path.tp7:", "wavelengths that rise evenly"]),
+    ({}, {"path": scanned("path")}, ["path.tp7: 11 points from 2000 to 2500 cm-1, expected 3 from 2050 to 2052"]),
     ({}, {"path": "MODTRAN said nothing\n"}, ["path.tp7: expected a head that starts with FREQ"]),
     ({}, {"path": ""}, ["path.tp7: expected a head that starts with FREQ"]),
 ])
