@@ -7,63 +7,24 @@ Searches the packages below, where they are installed, and the folders named. `r
 file, and that its area is trimesh's where that is installed; `refused` that it said why; all else is a failure,
 and the exit code is 1."""
 
-import argparse
-import importlib.util
 import logging
 import pathlib
 import re
 import subprocess
-import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
-RADSIG = ROOT / "build" / "radsig"
-ATMOSPHERE = ROOT / "build" / "radsig-atmosphere"
+import packaged
+from packaged import RADSIG, refusal
+
+ATMOSPHERE = packaged.ROOT / "build" / "radsig-atmosphere"
 MESHES = {".obj", ".ply", ".stl", ".off"}
-LARGEST_BYTES = 20_000_000
 
 FOLDERS = ["/usr/share/assimp/models", "/usr/share/libopenmesh-dev", "/usr/share/doc/libigl-dev"]  # Debian
 MODULES = ["trimesh", "pyvista", "open3d", "pymeshlab", "meshio", "vedo", "metpy", "siphon", "sharppy"]  # PyPI
 CACHES = ["~/.cache/metpy", "~/.cache/pyvista_3"]  # what they fetch on first use
 
-MESH_SCENE = """name = "packaged"
-[site]
-latitude_deg = 40.0
-longitude_deg = -105.0
-time = 2023-06-21T12:00:00-07:00
-[atmosphere]
-uniform = { sky_temperature_k = 260.0, sky_radiance_w_m2_sr_um = 0.0, sun_irradiance_w_m2_um = 0.0, transmission = 1.0, path_temperature_k = 260.0 }
-[[geometry]]
-file = '''%s'''
-material = "any"
-[[material]]
-name = "any"
-emissivity = 0.9
-temperature_k = 300.0
-[materials.alias]
-"*" = "any"
-[camera]
-position_m = [0, 0, 5]
-target_m = [0, 0, 0]
-focal_length_mm = 50
-pixels = [8, 8]
-[[band]]
-name = "lwir"
-wavelength_um = [8.0, 13.3]
-[render]
-thermal = "fixed"
-"""
-SOUNDING_SCENE = """name = "packaged"
-[site]
-latitude_deg = 40.0
-longitude_deg = -105.0
-time = 2023-06-21T12:00:00Z
-[camera]
-position_m = [0, 0, 9000]
-target_m = [0, 0, 0]
-focal_length_mm = 50
-pixels = [8, 8]
-[atmosphere.generate]
+SITE = (40.0, -105.0, "2023-06-21T12:00:00Z")
+GENERATE = """[atmosphere.generate]
 model = "us-standard-1976"
 radiosonde = '''%s'''
 ground_altitude_m = %s
@@ -77,13 +38,17 @@ path_zenith_deg = [0, 0, 1]
 
 
 def folders():
-    """Where packages lie that may hold files."""
-    found = [pathlib.Path(folder) for folder in FOLDERS]
-    found += [pathlib.Path(folder).expanduser() for folder in CACHES]
-    for module in MODULES:
-        spec = importlib.util.find_spec(module)
-        found += map(pathlib.Path, (spec.submodule_search_locations or []) if spec else [])
-    return [folder for folder in found if folder.is_dir()]
+    return packaged.folders(MODULES, FOLDERS + CACHES)
+
+
+def mesh_scene(mesh):
+    return packaged.mesh_scene(SITE, mesh, "temperature_k = 300.0", "fixed", '[materials.alias]\n"*" = "any"\n')
+
+
+def sounding_scene(sounding, ground_m):
+    latitude, longitude, time = SITE
+    return (packaged.SITE.format(latitude=latitude, longitude=longitude, time=time) + packaged.CAMERA.format(height_m=9000)
+            + GENERATE % (sounding, ground_m))
 
 
 def is_sounding(path):
@@ -94,9 +59,7 @@ def is_sounding(path):
 
 
 def files(where):
-    found = {path.resolve() for folder in where for path in folder.rglob("*")
-             if path.is_file() and path.stat().st_size < LARGEST_BYTES and (path.suffix.lower() in MESHES or is_sounding(path))}
-    return sorted(found)
+    return packaged.files(where, lambda path: path.suffix.lower() in MESHES or is_sounding(path))
 
 
 def run(program, *arguments):
@@ -127,14 +90,12 @@ def verdict(done, path, right):
     if done.returncode == 0:
         warning = [line for line in re.findall(r"warning: (.*)", done.stderr) if 'alias "*"' not in line]
         return ("read" if right else "WRONG"), warning[0] if warning else ""
-    said = done.stderr.strip().split("\n")[0]
-    named = done.returncode == 1 and path.name in said
-    return ("refused" if named else "FAILED"), re.sub(r"^radsig[^:]*: ", "", said)
+    return refusal(done, path)
 
 
 def check_mesh(path, folder):
     scene = folder / "scene.toml"
-    scene.write_text(MESH_SCENE % path)
+    scene.write_text(mesh_scene(path))
     done = run(RADSIG, "check", scene)
     told = re.search(r"^geometry .* (\d+) facets, (\S+) m2", done.stdout, re.M)
     expected = area_of(path, int(told[1])) if told else None
@@ -147,7 +108,7 @@ def check_sounding(path, folder):
     scene = folder / "scene.toml"
     done = None
     for ground in (0, 500, 1500, 3000):
-        scene.write_text(SOUNDING_SCENE % (path, ground))
+        scene.write_text(sounding_scene(path, ground))
         done = run(ATMOSPHERE, "make", scene, "-o", folder / "out.rad")
         if "raise ground_altitude_m" not in done.stderr:
             break
@@ -155,29 +116,17 @@ def check_sounding(path, folder):
 
 
 def table(where):
-    """Rows of name, verdict and reason."""
+    """Rows of path, what it is, verdict and reason."""
+    logging.disable()  # trimesh misses textures
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         for path in files(where):
             if path.suffix.lower() in MESHES:
-                rows.append((path, *check_mesh(path, pathlib.Path(folder))))
+                rows.append((path, path.suffix.lower(), *check_mesh(path, pathlib.Path(folder))))
             elif ATMOSPHERE.exists():
-                rows.append((path, *check_sounding(path, pathlib.Path(folder))))
+                rows.append((path, "sounding", *check_sounding(path, pathlib.Path(folder))))
     return rows
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", nargs="*", type=pathlib.Path)
-    logging.disable()  # trimesh misses textures
-    rows = table([*folders(), *parser.parse_args().folder])
-
-    for path, what, why in rows:
-        print(f"{what:8} {path.parent.name + '/' + path.name:50} {why.replace(str(path), path.name)[:150]}")
-    count = {what: sum(row[1] == what for row in rows) for what in ("read", "refused", "WRONG", "FAILED")}
-    print(", ".join(f"{number} {what}" for what, number in count.items()))
-    return 1 if count["WRONG"] or count["FAILED"] else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    packaged.main(__doc__, table, folders())

@@ -8,66 +8,38 @@ tables, SURFRAD and SOLRAD days. Each is the weather of a scene at its place on 
 the air at noon is the file's and that its light keeps the day's sum; `refused` that radsig said why; all else is a
 failure, and the exit code is 1."""
 
-import argparse
 import csv
-import importlib.util
 import io
 import math
 import pathlib
 import re
 import subprocess
-import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
-RADSIG = ROOT / "build" / "radsig"
+import packaged
+from packaged import RADSIG, refusal
+
 LANGLEY_PER_HOUR_W_M2 = 41840 / 3600
-LARGEST_BYTES = 20_000_000
 SMALLEST_SUM_WH = 300  # of a day, below which a per cent is little
 
 MODULES = ["pvlib", "ladybug", "ladybug_core", "accim", "epw", "pyepw", "diyepw", "besos", "eppy", "geomeppy"]  # PyPI
 FOLDERS = ["/usr/share/energyplus", "/usr/share/doc/energyplus"]
 YEAR_DAYS = [(1, 15), (2, 28), (2, 29), (3, 1), (4, 20), (6, 21), (9, 28), (10, 11), (12, 31)]
 
-SCENE = """name = "packaged"
-[site]
-latitude_deg = %.5f
-longitude_deg = %.5f
-time = %04d-%02d-%02dT12:00:00%s
-[weather]
-history = '''%s'''
-[atmosphere]
-uniform = { sky_temperature_k = 260.0, sky_radiance_w_m2_sr_um = 0.0, sun_irradiance_w_m2_um = 0.0, transmission = 1.0, path_temperature_k = 260.0 }
-[[geometry]]
-file = "plane.obj"
-material = "any"
-[[material]]
-name = "any"
-emissivity = 0.9
-thickness_cm = 5
+MATTER = """thickness_cm = 5
 density_kg_m3 = 2000
 specific_heat_j_kg_k = 900
-conductivity_w_m_k = 1
-[camera]
-position_m = [0, 0, 5]
-target_m = [0, 0, 0]
-focal_length_mm = 50
-pixels = [8, 8]
-[[band]]
-name = "lwir"
-wavelength_um = [8.0, 13.3]
-[render]
-thermal = "therm"
-"""
+conductivity_w_m_k = 1"""
 
 
 def folders():
-    """Where packages lie that may hold files."""
-    found = [pathlib.Path(folder) for folder in FOLDERS]
-    for module in MODULES:
-        spec = importlib.util.find_spec(module)
-        found += map(pathlib.Path, (spec.submodule_search_locations or []) if spec else [])
-    return [folder for folder in found if folder.is_dir()]
+    return packaged.folders(MODULES, FOLDERS)
+
+
+def scene(path, place, date, offset_h):
+    """Weather of a file at (latitude, longitude), at noon of (year, month, day)."""
+    time = f"{date[0]:04}-{date[1]:02}-{date[2]:02}T12:00:00{offset_text(offset_h)}"
+    return packaged.mesh_scene((*place, time), "plane.obj", MATTER, "therm", f"[weather]\nhistory = '''{path}'''\n")
 
 
 def kind(path):
@@ -89,10 +61,7 @@ def kind(path):
 
 
 def files(where):
-    found = {path.resolve() for folder in where for path in folder.rglob("*")
-             if path.suffix.lower() in {".epw", ".csv", ".dat"} and path.is_file()
-             and path.stat().st_size < LARGEST_BYTES and kind(path)}
-    return sorted(found)
+    return packaged.files(where, lambda path: path.suffix.lower() in {".epw", ".csv", ".dat"} and kind(path))
 
 
 def number(text):
@@ -161,9 +130,9 @@ def offset_text(hours):
     return f"{'-' if hours < 0 else '+'}{int(abs(hours)):02}:{round(60 * (abs(hours) % 1)):02}"
 
 
-def run(folder, scene):
+def run(folder, text):
     (folder / "plane.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    (folder / "scene.toml").write_text(scene)
+    (folder / "scene.toml").write_text(text)
     return subprocess.run([RADSIG, "weather", folder / "scene.toml", "-o", folder / "made.wth"],
                           capture_output=True, text=True, errors="replace", timeout=120)
 
@@ -181,16 +150,9 @@ def made(folder):
     return day[48][1], *sums, max(row[6] for row in rows) * LANGLEY_PER_HOUR_W_M2
 
 
-def refusal(done, path):
-    said = done.stderr.strip().split("\n")[-1]
-    named = done.returncode == 1 and path.name in said
-    return ("refused" if named else "FAILED"), re.sub(r"^radsig[^:]*: ", "", said)
-
-
 def check_day(path, year, date, folder):
     leap = date == (2, 29) or date == (3, 1)
-    done = run(folder, SCENE % (year.latitude, year.longitude, 2024 if leap else year.year, *date,
-                                offset_text(year.offset_h), path))
+    done = run(folder, scene(path, (year.latitude, year.longitude), (2024 if leap else year.year, *date), year.offset_h))
     if done.returncode:
         return refusal(done, path)
     told = warnings_of(done)
@@ -212,8 +174,7 @@ def check_station(path, folder):
     latitude, longitude = map(float, lines[1].split()[:2])
     first = list(map(float, lines[2].split()))
     offset_h = round(-abs(longitude) / 15)
-    done = run(folder, SCENE % (latitude, -abs(longitude), *map(int, (first[0], first[2], first[3])),
-                                offset_text(offset_h), path))
+    done = run(folder, scene(path, (latitude, -abs(longitude)), tuple(map(int, (first[0], first[2], first[3]))), offset_h))
     if done.returncode:
         return refusal(done, path)
     noon = [list(map(float, line.split())) for line in lines[2:] if line.split()[4:5] == [str(12 - offset_h)]]
@@ -237,17 +198,5 @@ def table(where):
         return [(path, *row) for path in files(where) for row in check(path, pathlib.Path(folder))]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", nargs="*", type=pathlib.Path)
-    rows = table([*folders(), *parser.parse_args().folder])
-
-    for path, tried, what, why in rows:
-        print(f"{what:8} {path.name[:44]:44} {tried:12} {why.replace(str(path), path.name)[:200]}")
-    count = {what: sum(row[2] == what for row in rows) for what in ("read", "refused", "WRONG", "FAILED")}
-    print(", ".join(f"{number} {what}" for what, number in count.items()))
-    return 1 if count["WRONG"] or count["FAILED"] else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    packaged.main(__doc__, table, folders())

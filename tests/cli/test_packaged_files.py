@@ -14,5 +14,5 @@ def test_packaged_files_are_read_or_refused_with_the_reason():
         pytest.skip("no package with meshes or soundings is installed (assimp-testmodels, trimesh, metpy ..)")
     rows = packaged_files.table(where)
 
-    assert [row for row in rows if row[1] not in ("read", "refused")] == []
-    assert [row for row in rows if row[1] == "refused" and len(row[2]) < 10] == []
+    assert [row for row in rows if row[2] not in ("read", "refused")] == []
+    assert [row for row in rows if row[2] == "refused" and len(row[3]) < 10] == []

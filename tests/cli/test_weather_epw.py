@@ -3,7 +3,7 @@ import datetime
 
 import numpy as np
 import pytest
-from station_files import AIR, DIFFUSE, DIRECT, LANGLEY_PER_HOUR_W_M2, check, epw_text, height, history, light
+from station_files import AIR, DIFFUSE, DIRECT, LANGLEY_PER_HOUR_W_M2, check, epw_text, history, light
 
 QUARTERS = (15, 30, 45, 60)
 PLACE = (43.1, -77.7)
