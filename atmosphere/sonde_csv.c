@@ -111,12 +111,10 @@ static bool has(const csv_head *head, sonde_quantity q)
 static status read_head(csv_head *out, record_file *file)
 {
     status rc = STATUS_OK;
-    const char *text, *next;
+    const char *next;
     csv_row names = {0}, units = {0};
 
-    TRY(record_file_text(file, &text, "the names of the columns"));
-    out->separator = csv_separator(text);
-    TRY(csv_row_split(&names, text, out->separator));
+    TRY(csv_row_names(&names, file, &out->separator, "the names of the columns"));
     read_names(out, &names, &units);
     next = out->lacks_unit ? record_file_peek(file) : NULL;
     if (next && !isdigit((unsigned char)next[strspn(next, " \t\"-+.,;")])) {

@@ -108,12 +108,10 @@ static status read_objects(object_list *list, const char *path, const material_l
     status rc = STATUS_OK;
     record_file *file = NULL;
     csv_row row = {0};
-    const char *text;
+    char separator;
 
     TRY(record_file_open(&file, path));
-    TRY(record_file_text(file, &text, objects_header));
-    const char separator = csv_separator(text);
-    TRY(csv_row_split(&row, text, separator));
+    TRY(csv_row_names(&row, file, &separator, objects_header));
     if (!is_objects_header(&row)) TRY(record_file_reject(file, "the header %s", objects_header));
     while (!record_file_at_end(file)) TRY(read_object(list, &row, separator, file, library));
     if (list->count == 0) TRY(record_file_reject(file, "objects behind the header"));

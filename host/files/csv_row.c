@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static bool is_blank(char c)
 {
@@ -100,6 +101,20 @@ status csv_row_take(csv_row *row, record_file *file, char separator, const char 
 
     TRY(record_file_text(file, &line, expected));
     TRY(csv_row_split(row, line, separator));
+out:
+    return rc;
+}
+
+status csv_row_names(csv_row *row, record_file *file, char *out_separator, const char *expected)
+{
+    status rc = STATUS_OK;
+    const char *line;
+
+    TRY(record_file_header(file, NULL));
+    TRY(record_file_text(file, &line, expected));
+    if (!strncasecmp(line, "sep=", 4)) TRY(record_file_text(file, &line, expected));
+    *out_separator = csv_separator(line);
+    TRY(csv_row_split(row, line, *out_separator));
 out:
     return rc;
 }

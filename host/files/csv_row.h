@@ -20,6 +20,10 @@ typedef struct csv_row {
  * outside quotes; a comma where none does. */
 char csv_separator(const char *line);
 
+/* Takes the line of names above a table's rows, and tells what separates its fields; lines that begin with `#`
+ * and a spreadsheet's `sep=;` before it are passed over. Fails as csv_row_take does. */
+status csv_row_names(csv_row *row, record_file *file, char *out_separator, const char *expected);
+
 /* Takes the next line apart. Blanks around a field go, quotes around it too, a doubled quote inside them
  * is one; a quote that nothing closes stands for itself; empty fields at the end of the line are not
  * counted. Where semicolons or tabs separate, a comma between digits is a decimal point.

@@ -20,10 +20,7 @@ struct record_file {
     int next_line;     /* its line number, from 1 */
     const char *taken; /* the line that was taken last */
     int taken_line;
-    const char *separators; /* of numbers, beside blanks */
 };
-
-static int take_numbers(const char *text, const char *others, size_t limit, double *out);
 
 const char *record_text_begin(const char *text)
 {
@@ -59,7 +56,6 @@ status record_file_open(record_file **out, const char *path)
     file->next = file->text;
     file->next_line = 1;
     file->taken = "";
-    file->separators = ",";
     *out = file;
     file = NULL;
 out:
@@ -157,15 +153,10 @@ status record_file_numbers(record_file *file, size_t count, double *out, const c
     const char *text;
 
     TRY(record_file_text(file, &text, expected));
-    if (take_numbers(text, file->separators, count, out) != (int)count)
+    if (record_numbers(text, count, out) != (int)count)
         rc = record_file_reject(file, "%s", expected);
 out:
     return rc;
-}
-
-void record_file_separate(record_file *file, char separator)
-{
-    file->separators = separator == ';' ? ";\"" : ",\"";
 }
 
 status record_file_number(record_file *file, double low, double high, double *out,
@@ -226,13 +217,12 @@ int record_file_line(const record_file *file)
     return file->taken_line;
 }
 
-/* `others` separate beside blanks. */
-static int take_numbers(const char *text, const char *others, size_t limit, double *out)
+int record_numbers(const char *text, size_t limit, double *out)
 {
     int count = 0;
 
     for (;;) {
-        while (isspace((unsigned char)*text) || (*text && strchr(others, *text))) text++;
+        while (isspace((unsigned char)*text) || *text == ',') text++;
         if (!*text) return count;
         double value;
         text = number_take(text, &value);
@@ -240,9 +230,4 @@ static int take_numbers(const char *text, const char *others, size_t limit, doub
         if ((size_t)count < limit) out[count] = value;
         count++;
     }
-}
-
-int record_numbers(const char *text, size_t limit, double *out)
-{
-    return take_numbers(text, ",", limit, out);
 }

@@ -38,10 +38,6 @@ const char *record_file_peek(record_file *file);
  * `0.00-15.00` are two; commas and blanks separate. */
 status record_file_numbers(record_file *file, size_t count, double *out, const char *expected);
 
-/* From now on numbers of a line are fields of a table: a comma or a semicolon separates, whichever is given, and
- * quotes do not count. */
-void record_file_separate(record_file *file, char separator);
-
 /* Takes a line that holds one number from low to high. */
 status record_file_number(record_file *file, double low, double high, double *out,
                           const char *expected);

@@ -58,15 +58,12 @@ static status read_file(material_aliases *to, const char *path, const toml_node 
     status rc = STATUS_OK;
     static const char names[] = "the names of the columns, pattern,material";
     static const char expected[] = "a pattern and a material";
-    const char *text;
+    char separator;
     csv_row row = {0};
     record_file *file = NULL;
 
     TRY(record_file_open(&file, path));
-    TRY(record_file_header(file, NULL));
-    TRY(record_file_text(file, &text, names));
-    const char separator = csv_separator(text);
-    TRY(csv_row_split(&row, text, separator));
+    TRY(csv_row_names(&row, file, &separator, names));
     if (!is_pair(&row) || strcasecmp(csv_row_field(&row, 0), "pattern") != 0 ||
         strcasecmp(csv_row_field(&row, 1), "material") != 0) {
         rc = record_file_reject(file, "%s", names);

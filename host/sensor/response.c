@@ -1,5 +1,6 @@
 #include "sensor/response.h"
 
+#include "base/number.h"
 #include "files/csv_row.h"
 #include "files/heading.h"
 #include "files/record_file.h"
@@ -71,25 +72,28 @@ static unit unit_of(const char *field)
     return is_number == (found == UNIT_CM1) ? (unit)found : UNIT_COUNT;
 }
 
-static status read_unit(unit *out, record_file *file)
+typedef struct reader {
+    record_file *file;
+    csv_row row;
+    char separator;
+    unit of;
+    double lowest; /* response, and where it stands */
+    int lowest_line;
+} reader;
+
+static status read_unit(reader *in)
 {
     static const char expected[] =
         "wavelength_um,response or wavelength_nm,response or wavenumber_cm1,response";
     status rc = STATUS_OK;
-    csv_row row = {0};
-    const char *text;
     char name[HEADING_SIZE] = "", unit_text[HEADING_SIZE];
 
-    TRY(record_file_header(file, NULL));
-    TRY(record_file_text(file, &text, expected));
-    TRY(csv_row_split(&row, text, csv_separator(text)));
-    record_file_separate(file, csv_separator(text));
-    *out = unit_of(csv_row_field(&row, 0));
-    heading_split(csv_row_field(&row, 1), HEADING_SIZE, name, unit_text);
-    if (*out == UNIT_COUNT || row.count != 2 || !heading_is_named(name, response_names))
-        rc = record_file_reject(file, "%s", expected);
+    TRY(csv_row_names(&in->row, in->file, &in->separator, expected));
+    in->of = unit_of(csv_row_field(&in->row, 0));
+    heading_split(csv_row_field(&in->row, 1), HEADING_SIZE, name, unit_text);
+    if (in->of == UNIT_COUNT || in->row.count != 2 || !heading_is_named(name, response_names))
+        rc = record_file_reject(in->file, "%s", expected);
 out:
-    csv_row_free(&row);
     return rc;
 }
 
@@ -117,21 +121,28 @@ static void join_steps(response *r)
     r->count--;
 }
 
-static status read_point(response *r, unit of, double *lowest, record_file *file)
+static status read_point(response *r, reader *in)
 {
     status rc = STATUS_OK;
     const int n = r->count, before = direction(r, n);
+    static const char expected[] = "a wavelength and a response";
     double *const l = r->wavelength_um;
     double pair[2];
 
-    TRY(record_file_numbers(file, 2, pair, "a wavelength and a response"));
-    l[n] = in_um(of, pair[0]);
+    TRY(csv_row_take(&in->row, in->file, in->separator, expected));
+    if (in->row.count != 2 || !number_read(in->row.field[0], &pair[0]) ||
+        !number_read(in->row.field[1], &pair[1]))
+        TRY(record_file_reject(in->file, "%s", expected));
+    l[n] = in_um(in->of, pair[0]);
     r->value[n] = pair[1];
-    *lowest = fmin(*lowest, pair[1]);
+    if (pair[1] < in->lowest) {
+        in->lowest = pair[1];
+        in->lowest_line = record_file_line(in->file);
+    }
     if (!(l[n] >= LEAST_UM && l[n] <= MOST_UM))
-        rc = record_file_reject(file, "a wavelength of 0.2 to 50 um");
+        rc = record_file_reject(in->file, "a wavelength of 0.2 to 50 um");
     else if (n > 0 && before != 0 && (l[n] - l[n - 1]) * before < 0.0)
-        rc = record_file_reject(file, "wavelengths that only rise or only fall");
+        rc = record_file_reject(in->file, "wavelengths that only rise or only fall");
     r->count++;
     join_steps(r);
 out:
@@ -139,15 +150,15 @@ out:
 }
 
 /* A detector's noise goes below 0 where the filter is shut. */
-static status clear_noise(response *r, double lowest, double peak, const record_file *file,
-                          const char *path)
+static status clear_noise(response *r, const reader *in, double peak, const char *path)
 {
-    if (lowest < -NOISE_SHARE * peak)
-        return record_file_reject(file, "a response of 0 or more, but for noise: the lowest is %g",
-                                  lowest);
-    if (lowest < 0.0)
+    if (in->lowest < -NOISE_SHARE * peak)
+        return status_set(STATUS_FORMAT,
+                          "%s:%d: found a response of %g, expected 0 or more, but for noise", path,
+                          in->lowest_line, in->lowest);
+    if (in->lowest < 0.0)
         status_warn("%s: responses below 0, down to %g of a peak of %g, are taken as 0", path,
-                    lowest, peak);
+                    in->lowest, peak);
     for (int i = 0; i < r->count; i++) r->value[i] = fmax(r->value[i], 0.0) / peak;
     return STATUS_OK;
 }
@@ -161,17 +172,18 @@ static void turn_round(double *values, int count)
     }
 }
 
-static status read_points(response *r, unit of, record_file *file, const char *path)
+static status read_points(response *r, reader *in, const char *path)
 {
     status rc = STATUS_OK;
-    double peak = 0.0, lowest = 0.0;
+    double peak = 0.0;
+    record_file *const file = in->file;
 
     while (r->count < 2 || !record_file_at_end(file)) {
         if (r->count == POINT_LIMIT) {
             rc = record_file_reject(file, "at most %d points", POINT_LIMIT);
             goto out;
         }
-        TRY(read_point(r, of, &lowest, file));
+        TRY(read_point(r, in));
         peak = fmax(peak, r->value[r->count - 1]);
     }
     if (!(peak > 0.0)) {
@@ -182,7 +194,7 @@ static status read_points(response *r, unit of, record_file *file, const char *p
         rc = record_file_reject(file, "wavelengths that only rise or only fall");
         goto out;
     }
-    TRY(clear_noise(r, lowest, peak, file, path));
+    TRY(clear_noise(r, in, peak, path));
     if (direction(r, r->count) > 0) goto out;
     turn_round(r->wavelength_um, r->count);
     turn_round(r->value, r->count);
@@ -193,19 +205,19 @@ out:
 status response_read(response **out, const char *path)
 {
     status rc = STATUS_OK;
-    record_file *file = NULL;
+    reader in = {0};
     response *r = NULL;
-    unit of;
 
-    TRY(record_file_open(&file, path));
+    TRY(record_file_open(&in.file, path));
     TRY(allocate(&r, POINT_LIMIT));
-    TRY(read_unit(&of, file));
-    TRY(read_points(r, of, file, path));
+    TRY(read_unit(&in));
+    TRY(read_points(r, &in, path));
     *out = r;
     r = NULL;
 out:
     response_free(r);
-    record_file_free(file);
+    csv_row_free(&in.row);
+    record_file_free(in.file);
     return rc;
 }
 

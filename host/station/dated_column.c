@@ -7,7 +7,7 @@
 enum { NAME_SIZE = 64 };
 
 const column dated_columns[DATED_COLUMNS] = {
-    [WEATHER_SERIES_AIR_K] = {"air temperature", "C", -1, -90, 70, false},
+    [WEATHER_SERIES_AIR_K] = {"air temperature", "C", -1, -90, 60, false},
     [WEATHER_SERIES_DEW_POINT_K] = {"dew point", "C", -1, -90, 70, false},
     [WEATHER_SERIES_HUMIDITY] = {"relative humidity", "%", -1, 0, 110, false},
     [WEATHER_SERIES_PRESSURE_PA] = {"pressure", "hPa", -1, 300, 1100, false},

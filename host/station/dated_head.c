@@ -12,6 +12,7 @@
 enum { NAME_SIZE = 64, PVGIS_LINES = 64 };
 
 static const char pvgis_begin[] = "Latitude (decimal degrees)";
+static const char stamp_names[] = "|valid_time|time(UTC)|timestamp|datetime|date time|period_end|";
 
 /* The field with one of the names, as a whole or before its unit; -1: none. */
 static int field_named(const csv_row *row, const char *names)
@@ -37,7 +38,7 @@ static dated_fields find_fields(const csv_row *row)
         .minute = field_named(row, "|Minute|MI|"),
         .date = field_named(row, "|Date|"),
         .time = field_named(row, "|Time|"),
-        .stamp = field_named(row, "|valid_time|time(UTC)|timestamp|datetime|date time|period_end|"),
+        .stamp = field_named(row, stamp_names),
         .latitude = field_named(row, "|latitude|lat|"),
         .longitude = field_named(row, "|longitude|lon|"),
     };
@@ -47,6 +48,12 @@ static dated_fields find_fields(const csv_row *row)
     if (f.stamp < 0 && f.time >= 0 && f.date < 0) f.stamp = f.time;
     if (f.stamp < 0 && row->count > 0 && !*row->field[0]) f.stamp = 0; /* an index without a name */
     return f;
+}
+
+/* Whether a name alone tells of dates; `time` may be hours. */
+static bool is_named_date(const dated_fields *f, const csv_row *first)
+{
+    return f->year >= 0 || f->date >= 0 || field_named(first, stamp_names) >= 0;
 }
 
 /* Whether a row's date can be read by those fields. */
@@ -60,11 +67,6 @@ static bool has_date(const dated_fields *f, const csv_row *row)
     return field >= 0 && date_text_read(csv_row_field(row, (size_t)field), &date, &offset_h);
 }
 
-static void copy_line(char *out, size_t size, const char *text)
-{
-    snprintf(out, size, "%.*s", (int)strcspn(text, "\n"), text);
-}
-
 /* The kind by the first two lines; the second one alone is taken apart. */
 static dated_kind kind_of(const csv_row *first, const char *second, dated_fields *fields,
                           const csv_row *second_row)
@@ -75,7 +77,7 @@ static dated_kind kind_of(const csv_row *first, const char *second, dated_fields
     if (!strcasecmp(begin, "Source") && field_named(first, "|Latitude|") >= 0) return DATED_NSRDB;
     if (!strncasecmp(second + (*second == '"'), "Date (MM/DD/YYYY)", 17)) return DATED_TMY3;
     *fields = find_fields(first);
-    if (!has_date(fields, second_row)) return DATED_NONE;
+    if (!is_named_date(fields, first) && !has_date(fields, second_row)) return DATED_NONE;
     return field_named(first, "|valid_time|") >= 0 ? DATED_ERA5 : DATED_OTHER;
 }
 
@@ -152,7 +154,10 @@ static status find_columns(dated_head *h, const csv_row *row, const csv_row *nam
 
     for (size_t i = 0; i < row->count; i++) {
         const int c = dated_column_find(row->field[i], h->kind == DATED_ERA5, text);
-        if (c < 0 || h->place[c].column) continue;
+        if (c < 0) continue;
+        if (h->place[c].column && !strcmp(row->field[i], row->field[h->place[c].field]))
+            TRY(record_file_reject(file, "one column '%s', not two", row->field[i]));
+        if (h->place[c].column) continue;
         if (names) nsrdb_unit(text, row->field[i], names, values);
         const unit *usual = unit_find(dated_columns[c].unit, NULL);
         const unit *here = unit_find(text, usual->quantity);
@@ -172,16 +177,13 @@ out:
 static status read_kind(dated_head *h, csv_row *first, csv_row *second, record_file *file)
 {
     status rc = STATUS_OK;
-    const char *next = record_file_peek(file);
+    const char *next;
     char line[4096];
 
-    if (!next) return STATUS_OK;
-    copy_line(line, sizeof line, next);
-    h->separator = csv_separator(line);
-    TRY(csv_row_take(first, file, h->separator, "a line of names"));
+    TRY(csv_row_names(first, file, &h->separator, "a line of names"));
     next = record_file_peek(file);
     if (!next) return STATUS_OK;
-    copy_line(line, sizeof line, next);
+    snprintf(line, sizeof line, "%.*s", (int)strcspn(next, "\n"), next);
     TRY(csv_row_split(second, line, h->separator));
     h->kind = kind_of(first, line, &h->fields, second);
 out:

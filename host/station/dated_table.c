@@ -50,7 +50,8 @@ static status take_date(table *t, weather_date *d)
     const char *text = csv_row_field(&t->row, (size_t)(has_both ? f->date : f->stamp));
     if (!date_text_read(text, d, &offset_h) ||
         (has_both && !date_text_add_time(csv_row_field(&t->row, (size_t)f->time), d)))
-        TRY(record_file_reject(t->file, "a date and a time, not '%.40s'", text));
+        TRY(record_file_reject(
+            t->file, "a date and a time such as 2019-01-31T12:30-07:00, not '%.40s'", text));
     if (!isnan(offset_h)) d->hour -= offset_h - t->year.utc_offset_h;
 out:
     return rc;

@@ -10,6 +10,8 @@
 #define DAY_S 86400.0
 #define MARGIN_S (2.0 * HOUR_S)
 #define SEA_LEVEL_PA 101325.0
+#define WET_K 1.0           /* of noise of dew points in saturated air */
+#define DRIEST 0.01         /* relative humidity over two days */
 #define MOST_DIFFERENCE 0.1 /* of the global irradiance */
 
 static double pressure_at(double elevation_m)
@@ -96,8 +98,30 @@ static bool set_dew_point(weather_sample *s)
 }
 
 typedef struct derived {
-    size_t dew_point, split, closed, pressure;
+    size_t dew_point, wet, split, closed, pressure;
 } derived;
+
+/* Sets dew points, and tells those that lie above the air's temperature. */
+static status fill_humidity(weather_cells *cells, const weather_series *series, double first_s,
+                            derived *count)
+{
+    status rc = STATUS_OK;
+    double most = -INFINITY;
+
+    for (size_t i = 0; i < cells->count; i++) {
+        const double *v = cells->cell[i].value;
+        const bool was_set = set_dew_point(&cells->cell[i]);
+        if (was_set) most = fmax(most, v[WEATHER_SERIES_HUMIDITY]);
+        if (!is_needed(cells, i, first_s)) continue;
+        count->dew_point += was_set;
+        count->wet += v[WEATHER_SERIES_DEW_POINT_K] > v[WEATHER_SERIES_AIR_K] + WET_K;
+    }
+    NEED(count->dew_point == 0 || most > DRIEST, STATUS_FORMAT,
+         "%s: its relative humidity is at most %.3g %%: expected per cent, not fractions",
+         series->path, 100.0 * most);
+out:
+    return rc;
+}
 
 static void complete_light(weather_sample *s, const weather_cells *cells, const site *place,
                            derived *count)
@@ -224,6 +248,10 @@ static void tell(const weather_series *series, const derived *count)
     if (count->dew_point > 0)
         status_warn("%s: the dew point of %.4g hours follows from the relative humidity",
                     series->path, (double)count->dew_point * hours);
+    if (count->wet > 0)
+        status_warn("%s: the dew point of %.4g hours lies above the air's temperature, which is "
+                    "taken for it",
+                    series->path, (double)count->wet * hours);
     if (count->split > 0)
         status_warn(
             "%s: direct and diffuse light of %.4g hours follow from the global irradiance, by "
@@ -251,10 +279,7 @@ status weather_cells_make(weather_cells *out, const weather_series *series, cons
     TRY(allocate(out, series, first_s));
     take_samples(out, series);
     fill_outside(out, series, first_s);
-    for (size_t i = 0; i < out->count; i++) {
-        const bool was_set = set_dew_point(&out->cell[i]);
-        count.dew_point += was_set && is_needed(out, i, first_s);
-    }
+    TRY(fill_humidity(out, series, first_s, &count));
     fill_light(out, place, first_s, &count);
     for (int q = 0; q < WEATHER_SERIES_COUNT; q++) bridge(out, place, q);
     for (size_t i = 0; i < out->count; i++) {

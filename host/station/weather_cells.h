@@ -17,7 +17,7 @@ typedef struct weather_cells {
 /* Takes the samples into cells from two hours before `first_s` to two hours beyond the 48 hours that begin
  * there. Then, in this order:
  *   outside the series   cells take what the same clock time of the other day has, with a warning
- *   humidity             dew point from relative humidity
+ *   humidity             dew point from relative humidity; refused where that is 1 % at most: fractions
  *   light                direct and diffuse from each other and the global irradiance
  *                        (light_split.h); behind the gaps where global differs from them by more
  *                        than a tenth in the mean; none while the sun is down

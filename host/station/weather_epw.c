@@ -17,7 +17,7 @@
 enum { LOCATION_FIELDS = 9, NEEDED_FIELDS = 22, HEADER_LINES = 20 };
 
 static const column columns[WEATHER_SERIES_COUNT] = {
-    [WEATHER_SERIES_AIR_K] = {"dry bulb temperature", "C", 6, -90, 70, false},
+    [WEATHER_SERIES_AIR_K] = {"dry bulb temperature", "C", 6, -90, 60, false},
     [WEATHER_SERIES_DEW_POINT_K] = {"dew point", "C", 7, -90, 70, false},
     [WEATHER_SERIES_HUMIDITY] = {"relative humidity", "%", 8, 0, 110, false},
     [WEATHER_SERIES_PRESSURE_PA] = {"pressure", "Pa", 9, 31000, 120000, false},
@@ -34,9 +34,8 @@ typedef struct epw {
     weather_series series;
     size_t room;
     record_file *file;
-    int an_hour;       /* records */
-    bool has_parts;    /* of hours */
-    weather_date last; /* row's */
+    int an_hour;    /* records */
+    bool has_parts; /* of hours */
     csv_row row;
     column_place place[WEATHER_SERIES_COUNT];
     column_gaps gaps;
@@ -105,11 +104,6 @@ static status read_date(epw *e, weather_date *out)
         out->hour -= 1.0;
         e->has_parts |= minute < 60.0;
     }
-    if (out->year == e->last.year && out->month == e->last.month && out->day == e->last.day &&
-        out->hour == e->last.hour)
-        TRY(record_file_reject(
-            e->file, "%d records an hour, as DATA PERIODS states, no two of a time", e->an_hour));
-    e->last = *out;
 out:
     return rc;
 }

@@ -33,6 +33,7 @@ typedef struct surfrad {
     column_place place[WEATHER_SERIES_COUNT];
     column_gaps gaps;
     nearest_place nearest;
+    bool has_row; /* of any station */
     bool is_kept; /* the rows behind the last heading */
 } surfrad;
 
@@ -119,13 +120,13 @@ static status read_row(surfrad *s)
 
     TRY(record_file_text(s->file, &text, "a row of a day"));
     const int found = record_numbers(text, NUMBERS, number);
-    NEED(found != SOLRAD_NUMBERS && found != MADISON_NUMBERS, STATUS_FORMAT,
+    NEED(s->has_row || (found != SOLRAD_NUMBERS && found != MADISON_NUMBERS), STATUS_FORMAT,
          "%s: is a day of SOLRAD, which measures light alone: expected air temperature, humidity "
-         "and "
-         "wind too, as days of SURFRAD have them",
+         "and wind too, as days of SURFRAD have them",
          s->series.path);
     if (found != NUMBERS)
         TRY(record_file_reject(s->file, "48 numbers: a time, then values and flags"));
+    s->has_row = true;
     if (!s->is_kept) return STATUS_OK;
     TRY(take_time(s, number, &sample.end_s));
     take_values(s, number, &sample);

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #define HOUR_S 3600.0
@@ -100,6 +101,23 @@ static int by_time(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* Refuses two rows of one time that differ. */
+static status check_twins(const weather_year *y, const weather_series *series)
+{
+    status rc = STATUS_OK;
+    char when[SITE_TIME_SIZE];
+
+    for (size_t i = 1; i < series->count; i++) {
+        const weather_sample *a = &series->sample[i - 1], *b = &series->sample[i];
+        if (b->end_s - a->end_s >= 1.0 || !memcmp(a->value, b->value, sizeof a->value)) continue;
+        site_format_time(b->end_s, y->place->utc_offset_min, when);
+        TRY(status_set(STATUS_FORMAT, "%s: has two rows for %s which differ, expected one",
+                       series->path, when));
+    }
+out:
+    return rc;
+}
+
 static bool has_twins(const weather_series *series)
 {
     for (size_t i = 1; i < series->count; i++)
@@ -184,6 +202,7 @@ status weather_year_fit(const weather_year *y, weather_series *series, size_t *r
 
     sort(series);
     TRY(choose_year(y, series));
+    TRY(check_twins(y, series));
     TRY(add_leap_day(y, series, room));
     sort(series);
     if (y->count == 1 && y->year[0] != scene_year)

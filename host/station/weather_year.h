@@ -43,6 +43,7 @@ bool weather_year_take(weather_year *y, const weather_date *date, double *out_s)
 /* Sorts the samples, of which each has the year that its row states, and makes them fit the scene's days:
  *   rows of several years for one time    those of the scene's year alone; refused with the list of
  *                                         the years where it is none of them
+ *   two rows for one time that differ     refused
  *   29 February that the file lacks       28 February, with a warning
  * Warns where all rows are of one year that is not the scene's. */
 status weather_year_fit(const weather_year *y, weather_series *series, size_t *room);

@@ -121,13 +121,8 @@ static status read_header(reader *r)
 {
     status rc = STATUS_OK;
     static const char expected[] = "a header: time [h],air_temperature [C],...";
-    const char *next = record_file_peek(r->file);
-    char line[1024] = "";
 
-    if (next) memcpy(line, next, strnlen(next, sizeof line - 1));
-    line[strcspn(line, "\n")] = '\0';
-    r->separator = csv_separator(line);
-    TRY(csv_row_take(&r->fields, r->file, r->separator, expected));
+    TRY(csv_row_names(&r->fields, r->file, &r->separator, expected));
     r->names = r->fields.count;
     for (size_t i = 0; i < r->names; i++) TRY(add_field(r, i));
     TRY(check_columns(r));

@@ -79,8 +79,17 @@ def test_noise_below_zero_is_zero_and_told(program, tmp_path):
     assert "filter.csv: responses below 0, down to -0.04 of a peak of 1, are taken as 0" in said
 
 
+def test_a_response_of_a_spreadsheet_with_decimal_commas_is_one(program, tmp_path):
+    (tmp_path / "filter.csv").write_text("sep=;\nwavelength_um;response\n8,25;0\n9;0,5\n10,5;1\n11;0\n")
+
+    done = program.run("check", program.write_scene(tmp_path, band=[{"name": "b", "response": "filter.csv"}]))
+
+    assert done.returncode == 0 and "8.25 to 11 um" in done.stdout
+
+
 @pytest.mark.parametrize("rows, expected", [
-    ("8,-.2\n9,1\n", "a response of 0 or more, but for noise: the lowest is -0.2"),
+    ("8,-.2\n9,1\n", "filter.csv:2: found a response of -0.2, expected 0 or more, but for noise"),
+    ("8,0\n9,-999\n10,1\n11,0\n", "filter.csv:3: found a response of -999"),
     ("8,1\n9,1\n8.5,1\n", "filter.csv:4: found '8.5,1', expected wavelengths that only rise or only fall"),
     ("8,1\n8,1\n", "wavelengths that only rise or only fall"),
     ("8,0\n9,0\n", "a response above 0")])

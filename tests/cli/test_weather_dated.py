@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from station_files import (AIR, DEW, DIFFUSE, DIRECT, LANGLEY_PER_HOUR_W_M2, PRESSURE, RAIN, SITE, WIND,
-                           check, height, history, light)
+                           check, height, history, light, surfrad_text)
 
 PLACE = (43.083, -77.667)
 NOON = 96 + 52  # 13:00 by the scene's clock, 4 h behind UTC, is 12:00 standard time and 17:00 UTC
@@ -166,6 +166,34 @@ def test_a_table_of_pvlib_s_names_with_times_and_offsets(program, tmp_path):
     assert " fit" not in errors and "offset" not in errors
 
 
+PVLIB_NAMES = "timestamp,temp_air,relative_humidity,pressure,wind,ghi,dni,dhi"
+
+
+def pvlib_text(names=PVLIB_NAMES, change=None, form="%Y-%m-%dT%H:%M-05:00", more=""):
+    """Hours by standard time, 5 h behind UTC; `more` stands behind them."""
+    text = names + "\n"
+    for local in hours():
+        utc = local + datetime.timedelta(hours=5)
+        v = {**weather(utc, utc), **(change or {})}
+        text += f"{local.strftime(form)},{v['air']},{v['rh']},{v['pressure']},{v['wind']},{v['global']},{v['direct']},{v['diffuse']}\n"
+    return text + more
+
+
+@pytest.mark.parametrize("before", ["sep=,\n", "# logger 7\n# north roof\n"])
+def test_a_spreadsheet_s_separator_and_comments_may_stand_above_the_names(program, tmp_path, before):
+    plain, _ = read(program, tmp_path, pvlib_text())
+    rows, _ = read(program, tmp_path, before + pvlib_text())
+
+    assert (rows == plain).all()
+
+
+def test_a_row_that_repeats_another_changes_nothing(program, tmp_path):
+    plain, _ = read(program, tmp_path, pvlib_text())
+    rows, _ = read(program, tmp_path, pvlib_text(more=pvlib_text().split("\n")[60] + "\n"))
+
+    assert (rows == plain).all()
+
+
 def pvgis_text():
     text = ("Latitude (decimal degrees): 43.083\nLongitude (decimal degrees): -77.667\nElevation (m): 169.0\n"
             "\nmonth,year\n6,2009\n7,2010\n\ntime(UTC),T2m,RH,G(h),Gb(n),Gd(h),IR(h),WS10m,WD10m,SP\n")
@@ -202,7 +230,7 @@ def test_a_table_of_hours_has_its_global_irradiance_split(program, tmp_path):
 
 
 @pytest.mark.parametrize("text, message", [
-    (tmy3_text().replace("06/23/1992,09:00", "06/31/1992,09:00"), "expected a date and a time, not '06/31/1992'"),
+    (tmy3_text().replace("06/23/1992,09:00", "06/31/1992,09:00"), "expected a date and a time such as 2019-01-31T12:30-07:00, not '06/31/1992'"),
     (tmy3_text().replace("06/23/1992,09:00", "06/23/1992,25:00"), "expected a date and a time"),
     (tmy3_text(place=(143.1, -77.7)), "year.csv:1: "),
     (nsrdb_text().replace("1992,6,23,9,0,", "1992,13,23,9,0,"), "a month from 1 to 12, not '13'"),
@@ -211,7 +239,15 @@ def test_a_table_of_hours_has_its_global_irradiance_split(program, tmp_path):
     (nsrdb_text().replace("Wind Speed,Temp", "Wind,Warmth,Temp", 1).replace(",Temperature,", ",Heat,"),
      "no air temperature"),
     (era5_text().replace("1992-06-23 09:00:00,43.083", "1992-06-23 09:00:00,north"), "a latitude and a longitude"),
-])
+    (pvlib_text(more="1992-06-23T12:00-05:00,60,60,995,3,0,0,0\n"), "year.csv: has two rows for 1992-06-23T13:00:00-04:00 which differ"),
+    (pvlib_text(change={"rh": 0.6}), "year.csv: its relative humidity is at most 0.6 %: expected per cent, not fractions"),
+    (pvlib_text(form="%m/%d/%Y %I:%M %p"), "year.csv:2: found '06/21/1992 12:00 AM"),
+    (pvlib_text(form="%d.%m.%Y %H:%M"), "not '21.06.1992 00:00'"),
+    (pvlib_text(PVLIB_NAMES.replace("relative_humidity", "temp_air")), "expected one column 'temp_air', not two"),
+    (pvlib_text(change={"air": 68.0}), "air temperature from -90 to 60 C, not 68"),
+    (pvlib_text(change={"air": "12,5"}), "8 fields, one for each name, not 9"),
+    (pvlib_text()[:-30], "8 fields, one for each name, not"),
+], ids=range(15))
 def test_a_broken_table_is_refused_with_the_reason(program, tmp_path, text, message):
     (tmp_path / "year.csv").write_text(text)
 
@@ -229,6 +265,15 @@ def test_a_day_of_solrad_is_refused_with_the_reason(program, tmp_path):
 
     assert done.returncode == 1
     assert "abq.dat: is a day of SOLRAD, which measures light alone: expected air temperature" in done.stderr
+
+
+def test_a_day_of_surfrad_that_is_cut_is_refused_at_its_line(program, tmp_path):
+    text = surfrad_text(23, 24)
+    (tmp_path / "cut.dat").write_text(text[:-100])
+
+    done = check(program, tmp_path, "cut.dat")
+
+    assert done.returncode == 1 and f"cut.dat:{text.count(chr(10))}: " in done.stderr and "expected 48 numbers" in done.stderr
 
 
 def test_a_name_of_another_ending_is_refused(program, tmp_path):

@@ -44,7 +44,7 @@ def test_records_of_an_hour_end_at_their_minutes(program, tmp_path, minutes):
 @pytest.mark.parametrize("text, expected", [
     (epw_text(minutes=(0, 15, 30, 45)), "expected hours 1 to 24, and minutes 15 to 60 by 15 at which records end"),
     (epw_text(minutes=(60,), an_hour=4), "year.epw: states 4 records an hour, and has one"),
-    (epw_text(minutes=QUARTERS, an_hour=1), "expected 1 records an hour, as DATA PERIODS states, no two of a time"),
+    (epw_text(minutes=QUARTERS, an_hour=1, change={(23, 12, 15): {"air": 30}}), "year.epw: has two rows for 1992-06-23T13:00:00-04:00 which differ"),
     (epw_text(minutes=(7, 14, 21, 28, 35, 42, 49, 56)), "expected DATA PERIODS,1,1,... : records an hour that divide 60"),
     (epw_text(minutes=QUARTERS, change={(day, hour): {"infrared": 82} for day in range(21, 25) for hour in range(1, 25)}),
      "year.epw: its infrared radiation is at most 82: expected means in W/m2"),

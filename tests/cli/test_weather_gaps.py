@@ -252,3 +252,21 @@ def test_wind_that_is_missing_for_longer_is_told_from_hour_to_hour(program, tmp_
 
     # 8 h and 12 h of standard time have wind: 33 and 37 h by the clock
     assert "no wind at 33.25 h of the two days that end with the scene's, until 36.75 h" in done.stderr
+
+
+def test_relative_humidity_in_fractions_is_refused(program, tmp_path):
+    (tmp_path / "year.epw").write_text(epw_text(change=everywhere(dew=99.9, rh=0.55)))
+
+    done = check(program, tmp_path, "year.epw")
+
+    assert done.returncode == 1
+    assert "year.epw: its relative humidity is at most 0.55 %: expected per cent, not fractions" in done.stderr
+
+
+def test_dew_points_above_the_air_are_told(program, tmp_path):
+    rows, errors = of_epw(program, tmp_path, epw_text(change=everywhere(air=15.0, dew=18.0)))
+    _, noise = of_epw(program, tmp_path, epw_text(change=everywhere(air=15.0, dew=15.4)))
+
+    assert rows[:, DEW] == pytest.approx(15.0)
+    assert "year.epw: the dew point of 48 hours lies above the air's temperature, which is taken for it" in errors
+    assert "lies above" not in noise

@@ -64,6 +64,26 @@ static void a_row_fits_its_names_unless_it_is_cut_or_has_more(void **state)
     csv_row_free(&row);
 }
 
+static void the_names_stand_below_comments_and_a_spreadsheet_s_separator(void **state)
+{
+    static const char *const texts[] = {"a;b\n1;2\n", "# x\n#\na;b\n", "sep=;\na;b\n",
+                                        "# x\nSEP=;\n\na;b\n"};
+    record_file *file = NULL;
+    csv_row row = {0};
+    char separator;
+
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        assert_int_equal(record_file_open(&file, text_file(texts[i])), STATUS_OK);
+        assert_int_equal(csv_row_names(&row, file, &separator, "names"), STATUS_OK);
+        assert_int_equal(separator, ';');
+        assert_int_equal(row.count, 2);
+        assert_string_equal(row.field[1], "b");
+        record_file_free(file);
+    }
+    csv_row_free(&row);
+}
+
 static void a_quote_that_nothing_closes_stands_for_itself(void **state)
 {
     static const char *const inch[] = {"\"5 inch", "x"};
@@ -108,6 +128,7 @@ int main(void)
         cmocka_unit_test(blanks_quotes_and_empty_fields_at_the_end_go),
         cmocka_unit_test(a_decimal_comma_is_one_where_semicolons_separate),
         cmocka_unit_test(a_row_fits_its_names_unless_it_is_cut_or_has_more),
+        cmocka_unit_test(the_names_stand_below_comments_and_a_spreadsheet_s_separator),
         cmocka_unit_test(a_quote_that_nothing_closes_stands_for_itself),
         cmocka_unit_test(a_long_line_is_taken_whole),
         cmocka_unit_test(the_separator_is_what_stands_there_most),

@@ -3,7 +3,7 @@
 
 #include "sensor/response.h"
 
-static const char table[] = "# a filter\nwavelength_um, response\n8, 0\n9, 2\n11, 4\n12 0\n";
+static const char table[] = "# a filter\nwavelength_um, response\n8, 0\n9, 2\n11, 4\n12, 0\n";
 
 static response *read_text(const char *text)
 {
@@ -156,7 +156,7 @@ static void a_wrong_table_is_refused_at_its_line(void **state)
         {"8,1\n9,1\n", 1, "wavelength_um,response"},
         {"wavelength_um,response\n8,1\n9\n", 3, "a wavelength and a response"},
         {"wavelength_um,response\n8,1\n9,x\n", 3, "a wavelength and a response"},
-        {"wavelength_um,response\n8,1\n9,-1\n", 3, "a response of 0 or more"},
+        {"wavelength_um,response\n8,1\n9,-1\n", 3, "a response of -1, expected 0 or more"},
         {"wavelength_um,response\n8,1\n900,1\n", 3, "a wavelength of 0.2 to 50 um"},
         {"wavenumber_cm1,response\n0,1\n900,1\n", 2, "a wavelength of 0.2 to 50 um"},
         {"wavelength_um,response\n9,1\n9,1\n", 3, "only rise or only fall"},
