@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { NAME_SIZE = 4096 };
+enum { NAME_SIZE = 4096, BANDS_SHOWN = 16 };
 
 static const char command[] = "radsig check";
 
@@ -83,6 +83,25 @@ static void print_geometry(const scene *s)
            g->non_finite_count, g->degenerate_count, g->duplicate_count, g->non_manifold_count);
 }
 
+/* What a spectrum covers, what it comes to for heat exchange, and its mean in the first bands. */
+static void print_spectrum(const scene *s, const scene_material *m)
+{
+    const double share = 100.0;
+
+    printf("spectrum        %s\n", m->spectrum);
+    printf("spectrum        sunlight absorbed %.3f (measured %.0f %%), emitted at 300 K %.3f "
+           "(measured "
+           "%.0f %%)\n",
+           m->sun.value, share * m->sun.measured_share, m->body.value,
+           share * m->body.measured_share);
+    for (uint32_t i = 0; i < s->band_count && i < BANDS_SHOWN; i++) {
+        const band *b = &s->bands[i];
+        if (b->sensor) continue;
+        printf("spectrum        mean emissivity in %s %.4f\n", b->name,
+               emissivity_integral(m->table, b->low_um, b->high_um) / (b->high_um - b->low_um));
+    }
+}
+
 static void print_materials(const scene *s)
 {
     char name[NAME_SIZE];
@@ -99,6 +118,7 @@ static void print_materials(const scene *s)
                m->medium != RECORD_NONE          ? "transmissive"
                : m->record.specular_share > 0.0f ? "specular"
                                                  : "diffuse");
+        if (m->spectrum) print_spectrum(s, m);
     }
 }
 

@@ -44,6 +44,10 @@ static const struct {
     {{"km", "length", 1000.0, 0.0}, "|km|gpkm|"},
     {{"ft", "length", 0.3048, 0.0}, "|ft|feet|"},
     {{"h", "time", 1.0, 0.0}, "|h|hr|hour|hours|"},
+    {{"um", "wavelength", 1.0, 0.0},
+     "|um|micron|microns|micrometer|micrometers|micrometre|micrometres|"},
+    {{"nm", "wavelength", 1e-3, 0.0}, "|nm|nanometer|nanometers|nanometre|nanometres|"},
+    {{"cm-1", "wavenumber", 1.0, 0.0}, "|cm-1|cm1|1/cm|"},
 };
 
 /* What has another spelling, or none. */
@@ -59,6 +63,8 @@ static const struct {
     {"\xe2\x88\x92", "-"}, /* minus */
     {"\xc2\xb7", ""},      /* middle dot */
     {"\xe2\x8b\x85", ""},  /* dot operator */
+    {"\xc2\xb5", "u"},     /* micro */
+    {"\xce\xbc", "u"},     /* mu */
     {"degrees", ""},
     {"degree", ""},
     {"deg", ""},

@@ -5,7 +5,7 @@
 typedef struct unit {
     const char *name;     /* as messages have it */
     const char *quantity; /* units of one quantity convert into each other */
-    double scale, offset; /* SI = scale x value + offset */
+    double scale, offset; /* SI = scale x value + offset; wavelengths in um, wavenumbers in cm-1 */
 } unit;
 
 /* Finds a unit of a quantity (NULL: of any) by any spelling: with or without a degree sign, `deg`, blanks, `^`, `*` and superscripts,

@@ -3,6 +3,13 @@
 #include <math.h>
 #include <stdio.h>
 
+wavelength_grid wavenumber_rows_grid(void)
+{
+    return (wavelength_grid){.count = WAVENUMBER_ROWS,
+                             .first_cm1 = WAVENUMBER_ROWS_FIRST_CM1,
+                             .step_cm1 = WAVENUMBER_ROWS_STEP_CM1};
+}
+
 status wavenumber_rows_read(record_file *file, const wavenumber_value *value, double *out,
                             size_t *out_cut_count)
 {

@@ -4,12 +4,16 @@
 #define WAVENUMBER_ROWS_H
 
 #include "files/record_file.h"
+#include "spectrum/wavelength_grid.h"
 
 enum {
     WAVENUMBER_ROWS = 396, /* 39850, 39750, .. 350 cm-1: 0.25 to 29 um, ascending wavelength */
     WAVENUMBER_ROWS_FIRST_CM1 = 39850,
     WAVENUMBER_ROWS_STEP_CM1 = 100
 };
+
+/* These wavenumbers; there is nothing in it to free. */
+wavelength_grid wavenumber_rows_grid(void);
 
 /* What a value is, and how far it reaches. */
 typedef struct wavenumber_value {

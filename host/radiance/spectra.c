@@ -219,6 +219,23 @@ out:
     return rc;
 }
 
+/* Marks the samples that bands have for spectra of materials. */
+static status mark_bends(spectra *s, const band *bands)
+{
+    status rc = STATUS_OK;
+
+    for (uint32_t b = 0; b < s->band_count; b++) {
+        if (bands[b].point_count > 0 && !s->bends) {
+            s->bends = calloc(s->sample_count, sizeof *s->bends);
+            NEED(s->bends, STATUS_MEMORY, "no memory for %u samples", s->sample_count);
+        }
+        for (size_t i = 0; i < bands[b].point_count; i++)
+            s->bends[find_sample(s, bands[b].point_cm1[i])] = true;
+    }
+out:
+    return rc;
+}
+
 static void free_samples(band_samples *samples, uint32_t count)
 {
     for (uint32_t i = 0; samples && i < count; i++) band_samples_free(&samples[i]);
@@ -239,6 +256,7 @@ status spectra_build(spectra **out, const band *bands, uint32_t band_count, cons
     TRY(allocate(s, band_count, air));
     for (uint32_t i = 0; i < band_count; i++) place_band(s, i, &bands[i], &samples[i]);
     TRY(place_weights(s, samples));
+    TRY(mark_bends(s, bands));
     fill_rows(s, air, thesis);
     *out = s;
     s = NULL;
@@ -310,6 +328,7 @@ void spectra_free(spectra *s)
 {
     if (!s) return;
     free(s->wavenumber_cm1);
+    free(s->bends);
     free(s->bands);
     free(s->centre_um);
     free(s->width_um);
@@ -333,19 +352,4 @@ air_record spectra_air(const atmosphere *air, double origin_z_m)
         (float)(air->sensor_altitude_m - ground_m - origin_z_m);
     for (int i = 0; i < air->range_count; i++) out.range_m[i + 1] = (float)air->range_m[i];
     return out;
-}
-
-void spectra_sample_emissivity(const spectra *s, const emissivity *table, float *out)
-{
-    for (uint32_t i = 0; i < s->sample_count; i++) {
-        double place = (EMISSIVITY_FIRST_CM1 - s->wavenumber_cm1[i]) / EMISSIVITY_STEP_CM1;
-        place = fmax(0.0, fmin(place, EMISSIVITY_WAVENUMBERS - 1));
-        const int low =
-            place >= EMISSIVITY_WAVENUMBERS - 1 ? EMISSIVITY_WAVENUMBERS - 2 : (int)place;
-        for (int angle = 0; angle < EMISSIVITY_ANGLES; angle++) {
-            const double a = (double)table->value[angle][low];
-            const double b = (double)table->value[angle][low + 1];
-            out[(size_t)angle * s->sample_count + i] = (float)(a + (place - low) * (b - a));
-        }
-    }
 }

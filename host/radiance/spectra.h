@@ -4,7 +4,6 @@
 #define SPECTRA_H
 
 #include "kernels/records.h"
-#include "material/emissivity.h"
 #include "sensor/band.h"
 
 #include <stdbool.h>
@@ -13,8 +12,9 @@ typedef struct spectra {
     /* One row for all bands, which share their samples; blocks of SPECTRA_BLOCK, padded with weight
      * 0 where no band is between. */
     uint32_t band_count, sample_count;
-    double *wavenumber_cm1;       /* shape (sample_count), does not ascend */
-    band_record *bands;           /* shape (band_count) */
+    double *wavenumber_cm1; /* shape (sample_count), does not ascend */
+    bool *bends;            /* shape (sample_count): spectra of materials bend there; NULL: none */
+    band_record *bands;     /* shape (band_count) */
     double *centre_um, *width_um; /* shape (band_count) */
     float *weight_um;             /* shape (weight_count): the bands', one behind the other */
     uint32_t weight_count;
@@ -40,9 +40,5 @@ status spectra_coarsen(spectra **out, const spectra *s);
  *   origin_z_m   the geometry's origin above z 0, which is where the database's levels begin
  * Whether the sensor looks along the ground is left open. */
 air_record spectra_air(const atmosphere *air, double origin_z_m);
-
-/* Samples an emissivity table, linear in wavenumber.
- *   out   shape (EMISSIVITY_ANGLES, sample_count) */
-void spectra_sample_emissivity(const spectra *s, const emissivity *table, float *out);
 
 #endif

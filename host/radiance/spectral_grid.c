@@ -1,5 +1,6 @@
 #include "radiance/spectral_grid.h"
 
+#include "material/wavenumber_rows.h"
 #include "sky/planck.h"
 
 #include <math.h>
@@ -35,6 +36,7 @@ static status find_distinct(distinct_samples *d, const spectra *s)
     for (uint32_t i = 0; i < s->sample_count; i++) {
         if (i > 0 && s->wavenumber_cm1[i] == s->wavenumber_cm1[i - 1]) continue;
         d->sample[d->count] = i;
+        d->is_knot[d->count] = s->bends && s->bends[i];
         d->nu_cm1[d->count++] = s->wavenumber_cm1[i];
     }
 out:
@@ -199,8 +201,8 @@ status spectral_grid_find(spectral_grid **out, const spectra *s, const atmospher
     NEED(k, STATUS_MEMORY, "no memory for knots");
     TRY(find_distinct(&d, s));
     mark_points(&d, air->wavenumber_cm1[0], air->wavenumber_step_cm1);
-    if (air->wavenumber_step_cm1 < EMISSIVITY_STEP_CM1)
-        mark_points(&d, EMISSIVITY_FIRST_CM1, EMISSIVITY_STEP_CM1);
+    if (air->wavenumber_step_cm1 < WAVENUMBER_ROWS_STEP_CM1)
+        mark_points(&d, WAVENUMBER_ROWS_FIRST_CM1, WAVENUMBER_ROWS_STEP_CM1);
     mark_ends(&d);
     mark_far(&d);
     TRY(list(k, &d, s->sample_count, all));

@@ -20,7 +20,7 @@ typedef struct spectral_grid {
 } spectral_grid;
 
 /* Finds knots: where a table can bend, that is at points of the database, and at those of emissivities
- * where the database's are closer; at ends of runs of samples; and no more than KNOT_STEPS apart. The weights of samples go to the knots that
+ * where the database's are closer; where spectra of materials bend; at ends of runs of samples; and no more than KNOT_STEPS apart. The weights of samples go to the knots that
  * they lie between.
  *   all   every sample: where extinction bends spectra
  * Fails with STATUS_MEMORY. */

@@ -76,8 +76,11 @@ static json_t *materials_of(const render_report *report)
 
     for (size_t i = 0; i < report->material_count; i++) {
         const image_label *material = &report->material[i];
-        append(&list, json_pack("{s:I, s:o}", "number", (json_int_t)material->number, "name",
-                                json_text(material->name)));
+        json_t *object = json_pack("{s:I, s:o}", "number", (json_int_t)material->number, "name",
+                                   json_text(material->name));
+        if (report->spectrum && report->spectrum[i])
+            set(&object, "spectrum", json_text(report->spectrum[i]));
+        append(&list, object);
     }
     return list;
 }

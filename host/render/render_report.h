@@ -41,6 +41,8 @@ typedef struct render_report {
     size_t plane_count;
     const image_label *material;
     size_t material_count;
+    const char *const
+        *spectrum; /* shape (material_count): what was measured, NULL: nothing; NULL: of none */
     const render_report_setting *setting;
     size_t setting_count;
     const render_report_input *input;

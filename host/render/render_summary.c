@@ -13,6 +13,7 @@ typedef struct lists {
     image_plane *planes;
     size_t plane_count;
     render_report_input *inputs;
+    const char **spectra;
     render_report_stage stages[STAGE_LIMIT];
     size_t stage_count;
     char names[STAGE_LIMIT][64];
@@ -75,9 +76,12 @@ static status gather(lists *l, const render_summary *summary)
 
     l->planes = calloc(summary->plane_count + sensor_count, sizeof *l->planes);
     l->inputs = calloc(s->input_count + 1, sizeof *l->inputs);
-    NEED(l->bands && l->planes && l->inputs, STATUS_MEMORY, "no memory for the report");
+    l->spectra = calloc(s->material_count + 1, sizeof *l->spectra);
+    NEED(l->bands && l->planes && l->inputs && l->spectra, STATUS_MEMORY,
+         "no memory for the report");
     list_bands(l, s);
     list_inputs(l, s);
+    for (uint32_t i = 0; i < s->material_count; i++) l->spectra[i] = s->materials[i].spectrum;
     for (size_t i = 0; i < summary->plane_count; i++)
         if (summary->values[i]) l->planes[l->plane_count++] = summary->planes[i].plane;
     for (size_t i = 0; i < sensor_count; i++)
@@ -138,6 +142,7 @@ status render_summary_write(output_folder *folder, const char *name, const rende
         .plane_count = l.plane_count,
         .material = summary->materials,
         .material_count = s->material_count,
+        .spectrum = l.spectra,
         .setting = settings,
         .setting_count = summary->sensor ? SETTING_COUNT : SETTING_COUNT - 2,
         .input = l.inputs,
@@ -151,5 +156,6 @@ out:
     free(l.bands);
     free(l.planes);
     free(l.inputs);
+    free(l.spectra);
     return rc;
 }

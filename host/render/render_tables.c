@@ -40,7 +40,7 @@ static status sample_emissivity(float **out, const scene *s, const spectra *at)
         const scene_material *m = &s->materials[i];
         float *first = rows + (size_t)m->record.emissivity_first * samples;
         if (m->table)
-            spectra_sample_emissivity(at, m->table, first);
+            emissivity_sample(m->table, at->wavenumber_cm1, at->sample_count, first);
         else
             for (size_t k = 0; k < samples; k++) first[k] = (float)m->grey_emissivity;
         if (m->record.lobe_first != RECORD_NONE)

@@ -188,6 +188,7 @@ static void read_parts(scene_reader *reader)
     check_facets(reader);
     scene_check_media(reader);
     set_ground(reader);
+    scene_place_samples(reader);
     warn_about_facets(s);
 }
 
@@ -282,6 +283,7 @@ void scene_free(scene *s)
     geometry_free(s->shape);
     for (uint32_t i = 0; i < s->material_count; i++) {
         free(s->materials[i].name);
+        free(s->materials[i].spectrum);
         emissivity_free(s->materials[i].table);
         extinction_free(s->materials[i].extinction);
         scattering_free(s->materials[i].scattering);

@@ -9,6 +9,7 @@
 #include "kernels/media/transmission.h"
 #include "material/emissivity.h"
 #include "material/heat_schedule.h"
+#include "material/heat_weight.h"
 #include "material/layered.h"
 #include "material/scattering.h"
 #include "mesh/geometry.h"
@@ -36,6 +37,8 @@ typedef struct scene_material {
     char *name;
     material_record record; /* emissivity_first counts rows of all materials in their order */
     emissivity *table;      /* NULL: grey */
+    char *spectrum;      /* what was measured and how it is used, a line; NULL: no spectrum_file */
+    heat_mean sun, body; /* what heat exchange takes of a spectrum; unused without one */
     double grey_emissivity; /* at all angles and wavelengths; unused with a table */
     double thickness_m;     /* of facets that state none; 0: not stated */
     double temperature_k;   /* for thermal fixed and of bodies; 0: not stated */

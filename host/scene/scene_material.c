@@ -21,6 +21,7 @@ typedef struct stated_material {
     bool two_sided;
     layered_matter layered;
     heat_schedule power;
+    stated_spectrum spectrum;
 } stated_material;
 
 /* Where materials are looked up. */
@@ -68,6 +69,7 @@ static stated_material read_stated(scene_reader *reader, const toml_node *node)
     scene_table_name(&t, "name", "", "a name", &m.name);
     scene_table_number(&t, "emissivity", 0.0, 1.0, &m.emissivity);
     scene_table_file(&t, "emissivity_file", &m.emissivity_path);
+    scene_read_spectrum(&t, &m.spectrum);
     scene_table_number(&t, "extinction_per_km", 0.0, 1e6, &m.extinction_per_km);
     scene_table_file(&t, "extinction_file", &m.extinction_path);
     scene_table_file(&t, "scattering_file", &m.scattering_path);
@@ -182,15 +184,19 @@ static material_record make_record(const material_sources *from, const material 
                                             .melting_c = NAN};
     const material *base = known ? known : &unknown;
     const stated_material *over = stated ? stated : &nothing;
-    /* Grey means the same in sunlight unless the scene says more. */
-    const double solar = isnan(over->emissivity) ? base->solar_absorptance : over->emissivity;
+    const bool has_spectrum = over->spectrum.count > 0;
+    /* Grey means the same in sunlight unless the scene says more; a spectrum tells both. */
+    const double solar = has_spectrum              ? (double)NAN
+                         : isnan(over->emissivity) ? base->solar_absorptance
+                                                   : over->emissivity;
+    const double thermal = has_spectrum ? (double)NAN : base->thermal_emissivity;
 
     return (material_record){
         .density_kg_m3 = either(over->density_kg_m3, base->density_kg_m3),
         .specific_heat_j_kg_k = either(over->specific_heat_j_kg_k, base->specific_heat_j_kg_k),
         .conductivity_w_m_k = either(over->conductivity_w_m_k, base->conductivity_w_m_k),
         .solar_absorptance = either(over->solar_absorptance, solar),
-        .thermal_emissivity = either(over->emissivity, base->thermal_emissivity),
+        .thermal_emissivity = either(over->emissivity, thermal),
         .exposed_area = either(over->exposed_area, base->exposed_area),
         .specular_share = specular_share(from->reader->s, over, base),
         .roughness = from->reader->s->thesis ? 0.0f : either(over->roughness, 0.0),
@@ -206,14 +212,22 @@ static void read_emissivity(const material_sources *from, scene_material *m, con
     scene_reader *reader = from->reader;
     const char *path = NULL;
 
-    if (stated && stated->emissivity_path) {
+    if (stated && stated->spectrum.node) {
+        scene_take_spectrum(reader, m, &stated->spectrum);
+        /* Fresnel's formulas are those of a smooth surface. */
+        if (isnan(stated->specular_share) && m->table &&
+            (m->table->law == EMISSIVITY_FRESNEL || m->table->law == EMISSIVITY_OPTICAL))
+            m->record.specular_share = 1.0f;
+        return;
+    } else if (stated && stated->emissivity_path) {
         path = stated->emissivity_path;
     } else if (stated && !isnan(stated->emissivity)) {
         m->grey_emissivity = stated->emissivity;
         return;
     } else if (!known || !strcmp(known->emissivity_file, "null")) {
         scene_fail(reader, stated ? stated->node : from->library_node,
-                   "material %s: has no emissivity, expected emissivity or emissivity_file in "
+                   "material %s: has no emissivity, expected emissivity, emissivity_file or "
+                   "spectrum_file in "
                    "[[material]]",
                    m->name);
         return;

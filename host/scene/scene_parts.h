@@ -37,6 +37,30 @@ void scene_read_medium(scene_reader *reader, scene_material *m, const toml_node 
 void scene_read_scattering(scene_reader *reader, scene_material *m, const toml_node *node,
                            const char *path);
 
+enum { SPECTRUM_FILES = 16 };
+
+/* What a [[material]] states of its spectrum. */
+typedef struct stated_spectrum {
+    const toml_node *node; /* of spectrum_file */
+    size_t count;          /* 0: it states none */
+    const char *path[SPECTRUM_FILES], *record, *wavelength_path;
+    const double *angle_deg; /* shape (count); NULL: the files join */
+    int law;                 /* emissivity_law */
+    double outside;          /* not-a-number: held, if that is stated */
+    bool states_outside, accepts_geometry;
+} stated_spectrum;
+
+/* The keys of a [[material]] that tell of its spectrum; `out` is empty. */
+void scene_read_spectrum(scene_table *t, stated_spectrum *out);
+
+/* Reads the files and gives the material the emissivity that they make, and with it what heat exchange takes of
+ * it where that is not a number yet; after the bands. */
+void scene_take_spectrum(scene_reader *reader, scene_material *m, const stated_spectrum *stated);
+
+/* Gives bands the samples that they need beside their own, so that their integrals of the materials' spectra are
+ * right; when all else is read. */
+void scene_place_samples(scene_reader *reader);
+
 /* Checks that bodies are closed, face outwards and have a temperature; when all else is read. */
 void scene_check_media(scene_reader *reader);
 

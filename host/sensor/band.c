@@ -49,31 +49,48 @@ static void add_segment(band_samples *out, double from, double to, band_quadratu
         if (out->wavenumber_cm1) out->wavenumber_cm1[out->count] = from + (to - from) * i / steps;
 }
 
-static void lay_samples(band_samples *out, const atmosphere *air, double high, double low,
-                        band_quadrature rule)
+/* Lists where samples are whatever their steps, from the longest wavenumber down: points of the database and,
+ * where samples are fine, the band's own, neither at an edge then.
+ *   out   shape (air->point_count + b->point_count); returns how many there are */
+static size_t list_stops(double *out, const band *b, const atmosphere *air, double high, double low,
+                         band_quadrature rule)
 {
-    const double nearly = 1e-6 * high;
+    const double nearly = 1e-6 * high, inset = rule == BAND_FINE ? nearly : -nearly;
+    const size_t own_count = rule == BAND_FINE ? b->point_count : 0;
+    size_t count = 0, own = 0;
+
+    for (int i = 0; i <= air->point_count; i++) {
+        const bool ended = i == air->point_count;
+        const double point = ended ? low : air->wavenumber_cm1[i];
+        for (; own < own_count && b->point_cm1[own] > point + nearly; own++) {
+            const double last = count > 0 ? out[count - 1] : high;
+            if (b->point_cm1[own] < fmin(last, high) - nearly && b->point_cm1[own] > low + nearly)
+                out[count++] = b->point_cm1[own];
+        }
+        if (!ended && point <= high - inset && point >= low + inset) out[count++] = point;
+    }
+    return count;
+}
+
+/* Without room for them counts the samples. */
+static void lay_samples(band_samples *out, const double *stop, size_t stop_count, double high,
+                        double low, band_quadrature rule)
+{
     double from = high;
-    const bool fine = rule == BAND_FINE;
-    bool started = fine;
+    size_t first = 0;
 
     out->count = 0;
-    if (fine && out->wavenumber_cm1) out->wavenumber_cm1[0] = high;
-    if (fine) out->count = 1;
-    for (int i = 0; i < air->point_count; i++) {
-        const double point = air->wavenumber_cm1[i];
-        if (point > high + nearly || point < low - nearly) continue;
-        if (fine && (point > high - nearly || point < low + nearly)) continue;
-        if (started)
-            add_segment(out, from, point, rule);
-        else if (out->wavenumber_cm1)
-            out->wavenumber_cm1[out->count++] = point;
-        else
-            out->count++;
-        started = true;
-        from = point;
+    if (rule == BAND_DATABASE_POINTS) {
+        if (stop_count == 0) return;
+        from = stop[first++];
     }
-    if (fine) add_segment(out, from, low, rule);
+    if (out->wavenumber_cm1) out->wavenumber_cm1[0] = from;
+    out->count = 1;
+    for (size_t i = first; i < stop_count; i++) {
+        add_segment(out, from, stop[i], rule);
+        from = stop[i];
+    }
+    if (rule == BAND_FINE) add_segment(out, from, low, rule);
 }
 
 /* What sample i counts: the trapezoid rule, or the integral of the response times the roof that is 1
@@ -110,21 +127,25 @@ status band_sample(band_samples *out, const band *b, const atmosphere *air, band
     status rc = STATUS_OK;
     band_samples samples = {0};
     double high, low;
+    double *stop = malloc(((size_t)air->point_count + b->point_count + 1) * sizeof *stop);
 
+    NEED(stop, STATUS_MEMORY, "no memory for a band");
     TRY(find_range(b, air, &high, &low));
-    lay_samples(&samples, air, high, low, rule);
+    const size_t stop_count = list_stops(stop, b, air, high, low, rule);
+    lay_samples(&samples, stop, stop_count, high, low, rule);
     NEED(samples.count >= 2, STATUS_ARGUMENT,
          "band %s: %d points of the radiance database lie in it, expected 2 or more", b->name,
          samples.count);
     samples.wavenumber_cm1 = malloc((size_t)samples.count * sizeof(double));
     samples.weight_um = malloc((size_t)samples.count * sizeof(double));
     NEED(samples.wavenumber_cm1 && samples.weight_um, STATUS_MEMORY, "no memory for a band");
-    lay_samples(&samples, air, high, low, rule);
+    lay_samples(&samples, stop, stop_count, high, low, rule);
     weigh(&samples, b, air, rule);
     NEED(samples.width_um > 0.0, STATUS_ARGUMENT, "band %s: its response is 0 everywhere", b->name);
     *out = samples;
     samples = (band_samples){0};
 out:
+    free(stop);
     band_samples_free(&samples);
     return rc;
 }
@@ -134,6 +155,7 @@ void band_free(band *b)
     free(b->name);
     response_free(b->tabulated);
     response_file_free(b->sensor);
+    free(b->point_cm1);
 }
 
 void band_samples_free(band_samples *samples)

@@ -17,6 +17,8 @@ typedef struct band {
     double gain, offset;    /* counts = gain x W m-2 sr-1 + offset */
     bool is_mean;           /* the cube holds radiance in band over the band's width */
     uint32_t table;         /* index of the [[band]] that states it */
+    size_t point_count;     /* of further samples, where spectra of materials bend */
+    double *point_cm1;      /* shape (point_count), descends */
 } band;
 
 /* Frees what a band owns. */
@@ -32,7 +34,7 @@ typedef struct band_samples {
 
 /* Where the samples of a band lie, and how they are summed. */
 typedef enum band_quadrature {
-    BAND_FINE, /* the band's own edges and every point of the database, and between them steps
+    BAND_FINE, /* the band's own edges, every point of the database, its own points, and between them steps
                           * of at most planck_step_cm1, by the trapezoid rule in wavelength; a tabulated
                           * response is integrated exactly against a spectrum that is linear between
                           * the samples */

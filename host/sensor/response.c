@@ -4,6 +4,7 @@
 #include "files/csv_row.h"
 #include "files/heading.h"
 #include "files/record_file.h"
+#include "files/wavelength_column.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -40,43 +41,14 @@ void response_free(response *r)
     free(r);
 }
 
-typedef enum unit { UNIT_UM, UNIT_NM, UNIT_CM1, UNIT_COUNT } unit;
-
-/* Names of wavelengths, with their unit, and names of the response. */
-static const char *const unit_names[UNIT_COUNT] = {"|um|micron|microns|micrometer|micrometre|",
-                                                   "|nm|nanometer|nanometre|",
-                                                   "|cm1|cm-1|1/cm|cm^-1|"};
-static const char wavelength_names[] = "|wavelength|lambda|wl|wave|";
 static const char response_names[] =
     "|response|relative response|spectral response|rsr|srf|transmission|transmittance|";
-
-/* The unit of `wavelength_um`, `Wavelength [nm]` or `wavenumber (cm-1)`; UNIT_COUNT for other names. */
-static unit unit_of(const char *field)
-{
-    char name[HEADING_SIZE], text[HEADING_SIZE];
-    int found = 0;
-
-    if (!heading_split(field, HEADING_SIZE, name, text)) return UNIT_COUNT;
-    char *suffix = strrchr(name, '_');
-    if (!*text && suffix) {
-        strcpy(text, suffix + 1);
-        *suffix = '\0';
-    }
-    if (!strncmp(text, "\xc2\xb5", 2) || !strncmp(text, "\xce\xbc", 2)) { /* micro, mu */
-        memmove(text + 1, text + 2, strlen(text + 1));
-        *text = 'u';
-    }
-    while (found < UNIT_COUNT && !heading_is_named(text, unit_names[found])) found++;
-    const bool is_number = heading_is_named(name, "|wavenumber|");
-    if (!is_number && !heading_is_named(name, wavelength_names)) return UNIT_COUNT;
-    return is_number == (found == UNIT_CM1) ? (unit)found : UNIT_COUNT;
-}
 
 typedef struct reader {
     record_file *file;
     csv_row row;
     char separator;
-    unit of;
+    const unit *of;
     double lowest; /* response, and where it stands */
     int lowest_line;
 } reader;
@@ -89,17 +61,12 @@ static status read_unit(reader *in)
     char name[HEADING_SIZE] = "", unit_text[HEADING_SIZE];
 
     TRY(csv_row_names(&in->row, in->file, &in->separator, expected));
-    in->of = unit_of(csv_row_field(&in->row, 0));
+    in->of = wavelength_column_unit(csv_row_field(&in->row, 0));
     heading_split(csv_row_field(&in->row, 1), HEADING_SIZE, name, unit_text);
-    if (in->of == UNIT_COUNT || in->row.count != 2 || !heading_is_named(name, response_names))
+    if (!in->of || in->row.count != 2 || !heading_is_named(name, response_names))
         rc = record_file_reject(in->file, "%s", expected);
 out:
     return rc;
-}
-
-static double in_um(unit of, double x)
-{
-    return of == UNIT_UM ? x : of == UNIT_NM ? 1e-3 * x : 1e4 / x;
 }
 
 /* Which way the wavelengths of the first points run: 1, -1, or 0 while they are the same. */
@@ -133,7 +100,7 @@ static status read_point(response *r, reader *in)
     if (in->row.count != 2 || !number_read(in->row.field[0], &pair[0]) ||
         !number_read(in->row.field[1], &pair[1]))
         TRY(record_file_reject(in->file, "%s", expected));
-    l[n] = in_um(in->of, pair[0]);
+    l[n] = wavelength_column_um(in->of, pair[0]);
     r->value[n] = pair[1];
     if (pair[1] < in->lowest) {
         in->lowest = pair[1];

@@ -195,30 +195,6 @@ static void gain_offset_and_mean_go_to_the_kernel(void **state)
     spectra_free(s);
 }
 
-static void an_emissivity_is_linear_in_wavenumber_at_every_angle(void **state)
-{
-    emissivity *e = malloc(sizeof *e);
-
-    (void)state;
-    spectra *s = build(false);
-    float *out = malloc(EMISSIVITY_ANGLES * (size_t)s->sample_count * sizeof *out);
-    for (int angle = 0; angle < EMISSIVITY_ANGLES; angle++)
-        for (int i = 0; i < EMISSIVITY_WAVENUMBERS; i++)
-            e->value[angle][i] = (float)(i % 2 ? .9 - .001 * angle : .3 + .001 * angle);
-    spectra_sample_emissivity(s, e, out);
-    for (int angle = 0; angle < EMISSIVITY_ANGLES; angle += 15)
-        for (uint32_t i = 0; i < s->sample_count; i += 5) {
-            /* Rows stand at 39850, 39750 ...: 1250 and 1050 cm-1 are even ones. */
-            const double place = fabs(fmod((1250.0 - s->wavenumber_cm1[i]) / 100.0, 2.0));
-            const double odd = place > 1.0 ? 2.0 - place : place;
-            assert_near((double)out[(size_t)angle * s->sample_count + i],
-                        odd * (.9 - .001 * angle) + (1.0 - odd) * (.3 + .001 * angle), 2e-7);
-        }
-    free(out);
-    free(e);
-    spectra_free(s);
-}
-
 static void a_band_beyond_the_database_fails(void **state)
 {
     const band beyond = {.name = "mwir", .low_um = 3.0, .high_um = 5.0};
@@ -240,7 +216,6 @@ int main(void)
         cmocka_unit_test(what_the_kernel_multiplies_is_multiplied_and_added_here),
         cmocka_unit_test(planck_s_terms_are_those_of_each_sample),
         cmocka_unit_test(gain_offset_and_mean_go_to_the_kernel),
-        cmocka_unit_test(an_emissivity_is_linear_in_wavenumber_at_every_angle),
         cmocka_unit_test(a_band_beyond_the_database_fails),
     };
 

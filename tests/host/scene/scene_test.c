@@ -72,8 +72,8 @@ static int write_files(void **state)
     stream = fopen(scratch_path("flat.ems"), "wb");
     for (int angle = 0; angle < EMISSIVITY_ANGLES; angle++) {
         fprintf(stream, "%d\n", angle);
-        for (int i = 0; i < EMISSIVITY_WAVENUMBERS; i++)
-            fprintf(stream, "%d .8\n", EMISSIVITY_FIRST_CM1 - i * EMISSIVITY_STEP_CM1);
+        for (int i = 0; i < WAVENUMBER_ROWS; i++)
+            fprintf(stream, "%d .8\n", WAVENUMBER_ROWS_FIRST_CM1 - i * WAVENUMBER_ROWS_STEP_CM1);
     }
     return fclose(stream);
 }

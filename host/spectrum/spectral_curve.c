@@ -1,0 +1,151 @@
+#include "spectrum/spectral_curve.h"
+
+#include "spectrum/spectral_file.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+void spectral_curve_free(spectral_curve *s)
+{
+    if (!s) return;
+    wavelength_grid_free(&s->grid);
+    free(s->value);
+    free(s->absorption);
+    free(s);
+}
+
+const char *spectral_curve_quantity_name(spectral_quantity quantity)
+{
+    static const char *const names[] = {"emissivity", "reflectance", "transmittance",
+                                        "optical constants"};
+
+    return names[quantity];
+}
+
+void spectral_curve_take_kirchhoff(spectral_curve *s)
+{
+    if (s->quantity != SPECTRAL_REFLECTANCE) return;
+    for (size_t i = 0; i < s->grid.count; i++) s->value[i] = 1.0 - s->value[i];
+    s->quantity = SPECTRAL_EMISSIVITY;
+}
+
+static bool ends_with(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), size = strlen(ending);
+
+    return length >= size && !strcasecmp(path + length - size, ending);
+}
+
+static status read_text(spectral_curve **out, const spectral_source *source)
+{
+    status rc = STATUS_OK;
+    record_file *file = NULL;
+
+    TRY(record_file_open(&file, source->path));
+    const char *line = record_file_peek(file);
+    if (ends_with(source->path, ".yml") || ends_with(source->path, ".yaml") ||
+        (line && !strncmp(line, "REFERENCES:", 11)))
+        TRY(refractive_index_file_read(out, file, source->path));
+    else if (line && ecostress_file_begins(line))
+        TRY(ecostress_file_read(out, file, source->path));
+    else if (line && splib_file_begins(line))
+        TRY(splib_file_read(out, file, source));
+    else if (line && svc_file_begins(line))
+        TRY(svc_file_read(out, file, source->path));
+    else
+        TRY(spectral_table_read(out, file, source->path));
+out:
+    record_file_free(file);
+    return rc;
+}
+
+status spectral_curve_read(spectral_curve **out, const spectral_source *source)
+{
+    if (ends_with(source->path, ".sli") || ends_with(source->path, ".hdr"))
+        return envi_library_read(out, source);
+    return read_text(out, source);
+}
+
+/* A point of either curve. */
+typedef struct joined_point {
+    double um, value, absorption;
+    wavelength_link link;
+    bool is_other;
+} joined_point;
+
+static joined_point point_of(const spectral_curve *s, size_t i, bool is_other)
+{
+    return (joined_point){s->grid.wavelength_um[i], s->value[i],
+                          s->absorption ? s->absorption[i] : 0.0, s->grid.link[i], is_other};
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double first = ((const joined_point *)a)->um, second = ((const joined_point *)b)->um;
+
+    return (first > second) - (first < second);
+}
+
+/* Returns how many points there are. */
+static size_t collect(joined_point *out, const spectral_curve *s, const spectral_curve *other,
+                      double overlap_um[2])
+{
+    size_t n = 0;
+
+    overlap_um[0] = overlap_um[1] = NAN;
+    for (size_t i = 0; i < s->grid.count; i++) out[n++] = point_of(s, i, false);
+    for (size_t i = 0; i < other->grid.count; i++) {
+        const double um = other->grid.wavelength_um[i];
+        if (!wavelength_grid_measures(&s->grid, um)) {
+            out[n++] = point_of(other, i, true);
+            continue;
+        }
+        overlap_um[0] = fmin(um, overlap_um[0]);
+        overlap_um[1] = fmax(um, overlap_um[1]);
+    }
+    qsort(out, n, sizeof *out, ascending);
+    return n;
+}
+
+static status allocate_joined(spectral_curve *out, const spectral_curve *like, size_t count)
+{
+    status rc = STATUS_OK;
+
+    TRY(wavelength_grid_make(&out->grid, count));
+    out->value = malloc(count * sizeof *out->value);
+    if (like->absorption) out->absorption = malloc(count * sizeof *out->absorption);
+    NEED(out->value && (out->absorption || !like->absorption), STATUS_MEMORY,
+         "no memory for %zu wavelengths", count);
+out:
+    return rc;
+}
+
+status spectral_curve_join(spectral_curve *s, const spectral_curve *other, double out_overlap_um[2])
+{
+    status rc = STATUS_OK;
+    spectral_curve *made = calloc(1, sizeof *made);
+    joined_point *point = malloc((s->grid.count + other->grid.count) * sizeof *point);
+
+    NEED(made && point, STATUS_MEMORY, "no memory to join spectra");
+    const size_t count = collect(point, s, other, out_overlap_um);
+    TRY(allocate_joined(made, s, count));
+    for (size_t i = 0; i < count; i++) {
+        made->grid.wavelength_um[i] = point[i].um;
+        made->value[i] = point[i].value;
+        if (made->absorption) made->absorption[i] = point[i].absorption;
+        made->grid.link[i] = i + 1 < count && point[i].is_other != point[i + 1].is_other
+                                 ? WAVELENGTH_LINK_GAP
+                                 : point[i].link;
+    }
+    const spectral_curve old = *s;
+    s->grid = made->grid;
+    s->value = made->value;
+    s->absorption = made->absorption;
+    *made = old;
+out:
+    free(point);
+    spectral_curve_free(made);
+    return rc;
+}
