@@ -1,8 +1,8 @@
 #include "scene/scene_parts.h"
 
 #include "base/name_table.h"
-#include "material/material.h"
 #include "scene/material_alias.h"
+#include "scene/scene_library.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,25 +11,10 @@
 /* So many failures tell of the nearest name. */
 enum { HINTS = 100 };
 
-/* What one [[material]] states; not-a-number, NULL and -1: nothing. */
-typedef struct stated_material {
-    const toml_node *node;
-    const char *name, *emissivity_path, *extinction_path, *scattering_path;
-    double emissivity, specular_share, roughness, temperature_k, thickness_cm;
-    double density_kg_m3, specific_heat_j_kg_k, conductivity_w_m_k;
-    double solar_absorptance, exposed_area, extinction_per_km, melting_c;
-    bool two_sided;
-    layered_matter layered;
-    heat_schedule power;
-    stated_spectrum spectrum;
-} stated_material;
-
 /* Where materials are looked up. */
 typedef struct material_sources {
     scene_reader *reader;
-    material_library *library;
-    const toml_node *library_node;
-    char *library_folder; /* with a final slash */
+    scene_library library;
     stated_material *stated;
     size_t stated_count;
     name_table *stated_numbers; /* of the stated, then of what was looked up among them */
@@ -46,47 +31,23 @@ static uint32_t number_of(const material_sources *from, name_table *names, const
     return number;
 }
 
-static stated_material read_stated(scene_reader *reader, const toml_node *node)
+/* A table of the scene, which may change a material of the library. */
+static stated_material read_stated(const material_sources *from, const toml_node *node,
+                                   uint32_t index)
 {
-    scene_table t = scene_table_open(reader, node, "material");
-    stated_material m = {.node = node,
-                         .name = "",
-                         .emissivity = NAN,
-                         .specular_share = NAN,
-                         .roughness = NAN,
-                         .temperature_k = NAN,
-                         .thickness_cm = NAN,
-                         .density_kg_m3 = NAN,
-                         .specific_heat_j_kg_k = NAN,
-                         .conductivity_w_m_k = NAN,
-                         .solar_absorptance = NAN,
-                         .exposed_area = NAN,
-                         .extinction_per_km = NAN,
-                         .melting_c = NAN,
-                         .layered = layered_matter_default()};
+    const char *name = "";
+    char message[512];
+    const toml_node *named = toml_node_get(node, "name");
+    const bool has_name = named && toml_node_string(&name, named, message, sizeof message) == 0;
+    const library_entry *entry = has_name ? scene_library_by_name(&from->library, name) : NULL;
+    stated_material base, m;
 
-    scene_table_require(&t, "name", "the name that the geometry gives it");
-    scene_table_name(&t, "name", "", "a name", &m.name);
-    scene_table_number(&t, "emissivity", 0.0, 1.0, &m.emissivity);
-    scene_table_file(&t, "emissivity_file", &m.emissivity_path);
-    scene_read_spectrum(&t, &m.spectrum);
-    scene_table_number(&t, "extinction_per_km", 0.0, 1e6, &m.extinction_per_km);
-    scene_table_file(&t, "extinction_file", &m.extinction_path);
-    scene_table_file(&t, "scattering_file", &m.scattering_path);
-    scene_table_number(&t, "specular_share", 0.0, 1.0, &m.specular_share);
-    scene_table_number(&t, "roughness", 0.0, 1.0, &m.roughness);
-    scene_table_number(&t, "temperature_k", 1.0, 6000.0, &m.temperature_k);
-    scene_table_number(&t, "thickness_cm", 1e-4, 1e4, &m.thickness_cm);
-    scene_table_number(&t, "density_kg_m3", .01, 3e4, &m.density_kg_m3);
-    scene_table_number(&t, "specific_heat_j_kg_k", 1.0, 2e4, &m.specific_heat_j_kg_k);
-    scene_table_number(&t, "conductivity_w_m_k", 0.0, 5e3, &m.conductivity_w_m_k);
-    scene_table_number(&t, "solar_absorptance", 0.0, 1.0, &m.solar_absorptance);
-    scene_table_number(&t, "exposed_area", -1.0, 1.0, &m.exposed_area);
-    scene_table_number(&t, "melting_temperature_c", -100.0, 1000.0, &m.melting_c);
-    scene_table_bool(&t, "two_sided", &m.two_sided);
-    scene_read_layered(&t, &m.layered);
-    scene_read_power(&t, &m.power);
-    scene_table_close(&t);
+    if (entry && entry->node)
+        base = scene_library_stated(&from->library, entry, from->reader);
+    else
+        entry = NULL;
+    m = stated_material_read(from->reader, node, entry ? &base : NULL);
+    m.number = entry ? entry->number : from->library.stated_count + index;
     return m;
 }
 
@@ -105,7 +66,7 @@ static void read_all_stated(material_sources *from)
         return;
     }
     for (size_t i = 0; i < count; i++) {
-        const stated_material m = read_stated(from->reader, toml_node_at(list, i));
+        const stated_material m = read_stated(from, toml_node_at(list, i), (uint32_t)i);
         if (number_of(from, from->stated_numbers, m.name) == from->stated_count)
             from->stated[from->stated_count++] = m;
         else
@@ -114,40 +75,11 @@ static void read_all_stated(material_sources *from)
     }
 }
 
-static void read_library(material_sources *from)
-{
-    scene_table t =
-        scene_table_open(from->reader, toml_node_get(from->reader->root, "library"), "library");
-    const char *path;
-
-    if (!t.node) return;
-    scene_table_require(&t, "materials", "a .mat file");
-    from->library_node = toml_node_get(t.node, "materials");
-    if (scene_table_file(&t, "materials", &path)) {
-        const char *slash = strrchr(path, '/');
-        from->library_folder = strndup(path, slash ? (size_t)(slash - path + 1) : 0);
-        scene_took(from->reader, from->library_folder
-                                     ? material_library_read(&from->library, path)
-                                     : status_set(STATUS_MEMORY, "%s: no memory to read it", path));
-    }
-    scene_table_close(&t);
-}
-
 static const stated_material *find_stated(const material_sources *from, const char *name)
 {
     const uint32_t number = number_of(from, from->stated_numbers, name);
 
     return number < from->stated_count ? &from->stated[number] : NULL;
-}
-
-/* Numbers of materials that only the scene states follow the library's codes. */
-static uint32_t stated_number(const material_sources *from, const stated_material *stated)
-{
-    int highest = 0;
-
-    for (int i = 0; from->library && i < from->library->count; i++)
-        if (from->library->items[i].code > highest) highest = from->library->items[i].code;
-    return (uint32_t)highest + 1u + (uint32_t)(stated - from->stated);
 }
 
 static float either(double stated, double otherwise)
@@ -173,15 +105,7 @@ static material_record make_record(const material_sources *from, const material 
                                    const stated_material *stated)
 {
     static const material unknown = {.density_kg_m3 = 0.0, .exposed_area = .5};
-    static const stated_material nothing = {.emissivity = NAN,
-                                            .specular_share = NAN,
-                                            .roughness = NAN,
-                                            .density_kg_m3 = NAN,
-                                            .specific_heat_j_kg_k = NAN,
-                                            .conductivity_w_m_k = NAN,
-                                            .solar_absorptance = NAN,
-                                            .exposed_area = NAN,
-                                            .melting_c = NAN};
+    const stated_material nothing = stated_material_default();
     const material *base = known ? known : &unknown;
     const stated_material *over = stated ? stated : &nothing;
     const bool has_spectrum = over->spectrum.count > 0;
@@ -201,14 +125,25 @@ static material_record make_record(const material_sources *from, const material 
         .specular_share = specular_share(from->reader->s, over, base),
         .roughness = from->reader->s->thesis ? 0.0f : either(over->roughness, 0.0),
         .melts_k = melts_k(from->reader->s, over),
-        .number = known ? (uint32_t)known->code : stated_number(from, stated),
+        /* Numbers of other materials follow the codes of .mat files. */
+        .number = known ? (uint32_t)known->code
+                        : (uint32_t)from->library.highest_code + 1u + over->number,
     };
 }
 
-/* Sets table or grey emissivity: the scene's file, the scene's number, the library's file. */
-static void read_emissivity(const material_sources *from, scene_material *m, const material *known,
-                            const stated_material *stated)
+/* A file that a .mat names. */
+static const char *add_known_file(const material_sources *from, const library_entry *entry,
+                                  const char *name)
 {
+    return scene_add_input(from->reader, from->library.node, from->library.file[entry->file].folder,
+                           name);
+}
+
+/* Sets table or grey emissivity: the scene's file, the scene's number, the library's file. */
+static void read_emissivity(const material_sources *from, scene_material *m,
+                            const library_entry *entry, const stated_material *stated)
+{
+    const material *known = entry ? entry->known : NULL;
     scene_reader *reader = from->reader;
     const char *path = NULL;
 
@@ -225,31 +160,30 @@ static void read_emissivity(const material_sources *from, scene_material *m, con
         m->grey_emissivity = stated->emissivity;
         return;
     } else if (!known || !strcmp(known->emissivity_file, "null")) {
-        scene_fail(reader, stated ? stated->node : from->library_node,
+        scene_fail(reader, stated ? stated->node : from->library.node,
                    "material %s: has no emissivity, expected emissivity, emissivity_file or "
                    "spectrum_file in "
                    "[[material]]",
                    m->name);
         return;
     } else {
-        path = scene_add_input(reader, from->library_node, from->library_folder,
-                               known->emissivity_file);
+        path = add_known_file(from, entry, known->emissivity_file);
     }
     if (path && scene_took(reader, emissivity_read(&m->table, path)))
         m->record.emissivity_angles = EMISSIVITY_ANGLES;
 }
 
 /* The scene's file, the scene's number, the library's file. */
-static void read_extinction(const material_sources *from, scene_material *m, const material *known,
-                            const stated_material *stated)
+static void read_extinction(const material_sources *from, scene_material *m,
+                            const library_entry *entry, const stated_material *stated)
 {
-    const toml_node *node = stated ? stated->node : from->library_node;
+    const material *known = entry ? entry->known : NULL;
+    const toml_node *node = stated ? stated->node : from->library.node;
     const char *path = stated ? stated->extinction_path : NULL;
     const double per_km = stated ? stated->extinction_per_km : (double)NAN;
 
     if (!path && isnan(per_km) && known && strcmp(known->extinction_file, "null") != 0)
-        path = scene_add_input(from->reader, from->library_node, from->library_folder,
-                               known->extinction_file);
+        path = add_known_file(from, entry, known->extinction_file);
     scene_read_medium(from->reader, m, node, path, per_km);
     if (stated && stated->scattering_path)
         scene_read_scattering(from->reader, m, node, stated->scattering_path);
@@ -275,8 +209,8 @@ static void check_material(scene_reader *reader, const scene_material *m,
 }
 
 /* Returns the new material's index, or RECORD_NONE without memory. */
-static uint32_t add_material(const material_sources *from, const char *name, const material *known,
-                             const stated_material *stated)
+static uint32_t add_material(const material_sources *from, const char *name,
+                             const library_entry *entry, const stated_material *stated)
 {
     scene *s = from->reader->s;
     scene_material *m = &s->materials[s->material_count];
@@ -286,10 +220,10 @@ static uint32_t add_material(const material_sources *from, const char *name, con
         scene_took(from->reader, status_set(STATUS_MEMORY, "%s: no memory for the material", name));
         return RECORD_NONE;
     }
-    m->record = make_record(from, known, stated);
-    read_extinction(from, m, known, stated);
+    m->record = make_record(from, entry ? entry->known : NULL, stated);
+    read_extinction(from, m, entry, stated);
     m->record.emissivity_angles = 1;
-    if (m->medium == RECORD_NONE) read_emissivity(from, m, known, stated);
+    if (m->medium == RECORD_NONE) read_emissivity(from, m, entry, stated);
     m->layered = stated ? stated->layered : layered_matter_default();
     if (stated) {
         m->thickness_m = isnan(stated->thickness_cm) ? 0.0 : .01 * stated->thickness_cm;
@@ -298,7 +232,7 @@ static uint32_t add_material(const material_sources *from, const char *name, con
         m->power = stated->power;
     }
     if (m->medium == RECORD_NONE)
-        check_material(from->reader, m, stated, stated ? stated->node : from->library_node);
+        check_material(from->reader, m, stated, stated ? stated->node : from->library.node);
     return s->material_count++;
 }
 
@@ -310,7 +244,7 @@ static const char *hint_for(const material_sources *from, const char *name,
 
     for (size_t i = 0; from->reader->failure_count < HINTS && i < from->stated_count; i++)
         spelling_offer(&near, from->stated[i].name);
-    if (from->library) material_offer_names(from->library, &near);
+    scene_library_offer(&from->library, &near);
     return spelling_hint(&near, "", hint);
 }
 
@@ -318,7 +252,7 @@ static void fail_unknown(const material_sources *from, const char *name, const c
 {
     char hint[SPELLING_HINT_SIZE];
 
-    scene_fail(from->reader, from->library_node,
+    scene_fail(from->reader, from->library.node,
                "%s: material \"%s\" is neither in the library nor a [[material]]%s%s", user, name,
                from->aliases->count ? ", and no alias matches it" : "", hint_for(from, name, hint));
 }
@@ -326,9 +260,8 @@ static void fail_unknown(const material_sources *from, const char *name, const c
 static bool is_known(const material_sources *from, const char *name, int code)
 {
     if (find_stated(from, name)) return true;
-    if (!from->library) return false;
-    return code >= 0 ? material_by_code(from->library, code) != NULL
-                     : material_by_name(from->library, name) != NULL;
+    return code >= 0 ? scene_library_by_code(&from->library, code) != NULL
+                     : scene_library_by_name(&from->library, name) != NULL;
 }
 
 /* Every alias leads to a material, whether a mesh needs it or not. */
@@ -336,7 +269,7 @@ static void check_aliases(const material_sources *from)
 {
     char where[512], hint[SPELLING_HINT_SIZE];
 
-    if (from->library_node && !from->library) return; /* that has been told */
+    if (from->library.node && !from->library.is_read) return; /* that has been told */
     for (size_t i = 0; i < from->aliases->count; i++) {
         const material_alias *a = &from->aliases->item[i];
         if (is_known(from, a->material, -1)) continue;
@@ -355,7 +288,8 @@ static uint32_t use_material(const material_sources *from, const char *name, int
                              const char *user)
 {
     scene *s = from->reader->s;
-    const material *known = NULL;
+    const library_entry *known = NULL;
+    stated_material own;
     const material_alias *alias =
         material_aliases_find(from->aliases, name, is_known(from, name, code));
 
@@ -364,22 +298,27 @@ static uint32_t use_material(const material_sources *from, const char *name, int
         code = -1;
     }
     const stated_material *stated = find_stated(from, name);
-    if (from->library)
-        known = code >= 0 && !stated ? material_by_code(from->library, code)
-                                     : material_by_name(from->library, name);
+    known = code >= 0 && !stated ? scene_library_by_code(&from->library, code)
+                                 : scene_library_by_name(&from->library, name);
     if (!known && !stated) {
-        if (alias) return RECORD_NONE;                                /* check_aliases tells it */
-        if (from->library_node && !from->library) return RECORD_NONE; /* that has been told */
+        if (alias) return RECORD_NONE; /* check_aliases tells it */
+        if (from->library.node && !from->library.is_read)
+            return RECORD_NONE; /* that has been told */
         if (code >= 0)
-            scene_fail(from->reader, from->library_node,
+            scene_fail(from->reader, from->library.node,
                        "%s: material %d (%s) is not in the library", user, code, name);
         else
             fail_unknown(from, name, user);
         return RECORD_NONE;
     }
-    const char *own = known ? known->name : name;
-    const uint32_t number = number_of(from, from->used_numbers, own);
-    return number == s->material_count ? add_material(from, own, known, stated) : number;
+    const char *called = known ? known->name : name;
+    const uint32_t number = number_of(from, from->used_numbers, called);
+    if (number != s->material_count) return number;
+    if (!stated && known->node) {
+        own = scene_library_stated(&from->library, known, from->reader);
+        stated = &own;
+    }
+    return add_material(from, called, known, stated);
 }
 
 /* Rows of the emissivity table: of all materials, then of all their diffuse lobes. */
@@ -428,7 +367,7 @@ void scene_read_materials(scene_reader *reader, const char *ground_material)
     if (!scene_took(reader, name_table_open(&from.stated_numbers)) ||
         !scene_took(reader, name_table_open(&from.used_numbers)))
         goto out;
-    read_library(&from);
+    scene_library_read(&from.library, reader);
     read_all_stated(&from);
     material_aliases_read(&aliases, reader);
     check_aliases(&from);
@@ -436,8 +375,7 @@ void scene_read_materials(scene_reader *reader, const char *ground_material)
 out:
     name_table_free(from.used_numbers);
     name_table_free(from.stated_numbers);
-    material_library_free(from.library);
+    scene_library_free(&from.library);
     material_aliases_free(&aliases);
-    free(from.library_folder);
     free(from.stated);
 }

@@ -50,7 +50,10 @@ typedef struct stated_spectrum {
     bool states_outside, accepts_geometry;
 } stated_spectrum;
 
-/* The keys of a [[material]] that tell of its spectrum; `out` is empty. */
+/* States no spectrum. */
+stated_spectrum stated_spectrum_default(void);
+
+/* The keys of a [[material]] that tell of its spectrum; without them `out` is left as it is. */
 void scene_read_spectrum(scene_table *t, stated_spectrum *out);
 
 /* Reads the files and gives the material the emissivity that they make, and with it what heat exchange takes of

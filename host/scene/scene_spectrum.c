@@ -13,7 +13,7 @@
 /* Adds a file, and of an ENVI spectral library both of its files. */
 static const char *add_file(scene_reader *reader, const toml_node *node, const char *name)
 {
-    const char *const folder = reader->s->folder;
+    const char *const folder = scene_reader_folder(reader);
     const size_t length = strlen(name);
     char other[4096];
 
@@ -34,8 +34,9 @@ static void read_files(scene_table *t, stated_spectrum *out)
     char message[512];
     size_t count = 1;
 
-    out->node = scene_table_node(t, "spectrum_file");
-    if (!out->node) return;
+    const toml_node *node = scene_table_node(t, "spectrum_file");
+    if (!node) return;
+    out->node = node;
     const int failed =
         toml_node_kind(out->node) == TOML_ARRAY
             ? toml_node_strings(&name, &count, out->node, message, sizeof message)
@@ -86,13 +87,18 @@ static void read_outside(scene_table *t, stated_spectrum *out)
     const toml_node *node = scene_table_node(t, "outside");
     int word;
 
-    out->outside = NAN;
     if (!node) return;
     out->states_outside = true;
+    out->outside = NAN;
     if (toml_node_kind(node) == TOML_NUMBER)
         scene_table_number(t, "outside", 0.0, 1.0, &out->outside);
     else
         scene_table_word(t, "outside", words, 1, &word);
+}
+
+stated_spectrum stated_spectrum_default(void)
+{
+    return (stated_spectrum){.outside = NAN};
 }
 
 void scene_read_spectrum(scene_table *t, stated_spectrum *out)

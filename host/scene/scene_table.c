@@ -297,11 +297,17 @@ const char *scene_add_input(scene_reader *reader, const toml_node *node, const c
     return NULL;
 }
 
+const char *scene_reader_folder(const scene_reader *reader)
+{
+    return reader->folder ? reader->folder : reader->s->folder;
+}
+
 bool scene_table_file(scene_table *t, const char *key, const char **out_path)
 {
     const char *name;
 
     if (!scene_table_string(t, key, &name)) return false;
-    *out_path = scene_add_input(t->reader, toml_node_get(t->node, key), t->reader->s->folder, name);
+    *out_path = scene_add_input(t->reader, toml_node_get(t->node, key),
+                                scene_reader_folder(t->reader), name);
     return *out_path != NULL;
 }

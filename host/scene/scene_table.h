@@ -10,6 +10,8 @@
 typedef struct scene_reader {
     scene *s;
     const toml_node *root;
+    const char *
+        folder; /* with a final slash: where files are looked for that tables name; NULL: the scene's */
     int failure_count;
     status ending; /* STATUS_MEMORY, STATUS_INTERRUPTED: what fails then is told no more */
 } scene_reader;
@@ -67,7 +69,10 @@ void scene_table_require(scene_table *t, const char *key, const char *expected);
 /* Fails for every key that was never asked for. A key without its unit is told the one with it. */
 void scene_table_close(scene_table *t);
 
-/* A key that names a file, relative to the scene's folder: true if the file can be read; it is then
+/* Where files are looked for that tables name, with a final slash. */
+const char *scene_reader_folder(const scene_reader *reader);
+
+/* A key that names a file, relative to that folder: true if the file can be read; it is then
  * one of the scene's inputs, and its path belongs to the scene. */
 bool scene_table_file(scene_table *t, const char *key, const char **out_path);
 
