@@ -57,8 +57,9 @@ typedef struct sonde_unit {
 typedef struct sonde_builder {
     sonde *s;
     const char *path;
-    size_t flag_count;  /* numbers that stand for none */
-    size_t noise_count; /* levels that repeat one, or fall a little below it */
+    size_t flag_count;    /* numbers that stand for none */
+    double most_humidity; /* relative, of those that dew points follow from */
+    size_t noise_count;   /* levels that repeat one, or fall a little below it */
 } sonde_builder;
 
 /* Turns a number into its unit. Numbers of nines alone, -8888 and others far beyond all soundings stand

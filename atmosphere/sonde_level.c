@@ -10,7 +10,9 @@
 #define NOISE_M 50.0         /* what a balloon that rises may seem to fall */
 #define NOISE_HPA 5.0
 #define LEAST_HUMIDITY 1e-4
-#define FILL 1e5 /* numbers beyond are none */
+#define DRIEST 0.0101 /* relative humidity that no whole sounding is below */
+#define MISFIT 2.0    /* of heights to the hypsometric equation: a factor */
+#define FILL 1e5      /* numbers beyond are none */
 #define GRAVITY_M_S2 9.80665
 #define DRY_AIR_J_KG_K 287.05
 #define BRIDGED_M 2000.0 /* a dew point that is missing over so much lies between its neighbours */
@@ -47,11 +49,12 @@ double sonde_value(sonde_builder *builder, const sonde_unit *unit, double number
     return (double)NAN;
 }
 
-static double dew_point_of(const double *value)
+static double dew_point_of(sonde_builder *builder, const double *value)
 {
     if (!isnan(value[SONDE_DEW_POINT])) return value[SONDE_DEW_POINT];
     if (!isnan(value[SONDE_DEPRESSION])) return value[SONDE_TEMPERATURE] - value[SONDE_DEPRESSION];
     if (isnan(value[SONDE_HUMIDITY])) return (double)NAN;
+    builder->most_humidity = fmax(builder->most_humidity, value[SONDE_HUMIDITY]);
     return weather_dew_point_k(value[SONDE_TEMPERATURE],
                                fmax(LEAST_HUMIDITY, value[SONDE_HUMIDITY]));
 }
@@ -97,7 +100,7 @@ status sonde_add(sonde_builder *builder, const double *value, const record_file 
     TRY(check_ranges(value, file));
     if (isnan(value[SONDE_PRESSURE]) || isnan(value[SONDE_TEMPERATURE])) goto out;
     const sonde_level level = {value[SONDE_ALTITUDE], value[SONDE_PRESSURE],
-                               value[SONDE_TEMPERATURE], dew_point_of(value)};
+                               value[SONDE_TEMPERATURE], dew_point_of(builder, value)};
     if (level.dew_point_k > level.temperature_k + SUPERSATURATED_K) {
         rc = record_file_reject(file, "a dew point up to the temperature, a relative humidity up "
                                       "to 100");
@@ -173,6 +176,27 @@ static void bridge_dew_points(sonde *s)
     }
 }
 
+/* Refuses what is in other units than its names say: fractions for per cent, feet for metres. */
+static status check_units(const sonde_builder *builder)
+{
+    status rc = STATUS_OK;
+    const sonde *s = builder->s;
+    const sonde_level *low = &s->level[0], *high = &s->level[s->count - 1];
+    double thick_m = 0.0;
+
+    NEED(!(builder->most_humidity > 0.0 && builder->most_humidity < DRIEST), STATUS_FORMAT,
+         "%s: its relative humidity is at most %.3g %%: expected per cent, not fractions",
+         builder->path, 100.0 * builder->most_humidity);
+    for (size_t i = 1; i < s->count; i++) thick_m += thickness_m(&s->level[i - 1], &s->level[i]);
+    const double ratio = (high->altitude_m - low->altitude_m) / thick_m;
+    NEED(ratio < MISFIT && ratio > 1.0 / MISFIT, STATUS_FORMAT,
+         "%s: its heights rise by %.4g m, which is %.3g times what pressure and temperature give: "
+         "expected metres above sea level",
+         builder->path, high->altitude_m - low->altitude_m, ratio);
+out:
+    return rc;
+}
+
 status sonde_finish(sonde_builder *builder)
 {
     status rc = STATUS_OK;
@@ -187,6 +211,7 @@ status sonde_finish(sonde_builder *builder)
         NEED(s->level[i].altitude_m > s->level[i - 1].altitude_m, STATUS_FORMAT,
              "%s: heights do not rise from %g to %g hPa", path, s->level[i - 1].pressure_hpa,
              s->level[i].pressure_hpa);
+    TRY(check_units(builder));
     bridge_dew_points(s);
     if (filled)
         status_warn("%s: %zu heights are missing, and follow from pressure and temperature", path,

@@ -107,6 +107,8 @@ static status read(sonde_builder *builder, record_file *file, const sonde_part *
         const size_t start = record_file_column(file);
         if (*text == '-' && text[1] == '-') continue;
         if (record_numbers(text, 0, NULL) < 0) break;
+        if (strchr(text, '\t'))
+            TRY(record_file_reject(file, "columns of seven characters, without tabs"));
         for (int q = 0; q < SONDE_QUANTITIES; q++) value[q] = (double)NAN;
         for (int i = 0; i < COLUMNS; i++)
             if (take_field(text, start, i, &number))

@@ -8,8 +8,7 @@
 #include <string.h>
 #include <strings.h>
 
-static const char *const no_value[] = {"na", "n/a", "nan", "-nan", "null", "none",
-                                       "-",  "--",  "m",   "*",    "/",    "///"};
+static const char *const no_value[] = {"na", "n/a", "nan", "-nan", "null", "none", "m"};
 
 bool column_is_blank(const char *text)
 {
@@ -17,7 +16,7 @@ bool column_is_blank(const char *text)
 
     while (isspace((unsigned char)*text)) text++;
     while (end > text && isspace((unsigned char)end[-1])) end--;
-    if (end == text) return true;
+    if (strspn(text, "-*/.") >= (size_t)(end - text)) return true;
     for (size_t i = 0; i < sizeof no_value / sizeof *no_value; i++)
         if (strlen(no_value[i]) == (size_t)(end - text) &&
             !strncasecmp(text, no_value[i], (size_t)(end - text)))

@@ -38,7 +38,8 @@ column_place column_place_at(const column *c, const unit *here, size_t field);
  *   out   shape (count): in the order of the columns */
 void column_places(column_place *out, const column *columns, size_t count);
 
-/* Whether a field says that there is no value: blank, a word such as `NA`, `NaN`, `null` or `-`. */
+/* Whether a field says that there is no value: blank, a word such as `NA`, `NaN`, `null`,
+ * or `-`, `*`, `/` and `.` alone, as `--` and `///`. */
 bool column_is_blank(const char *text);
 
 /* Reads a field in SI; not-a-number where it is missing: a blank one; a flag, which is out of range and

@@ -107,7 +107,7 @@ def test_relative_humidity_gives_the_dew_point(levels_of):
     assert [level[3] for level in found] == pytest.approx([level[3] for level in LEVELS], abs=0.3)
 
 
-@pytest.mark.parametrize("flag", ["-999", "-9999", "-9999.0", "-999.9", "-99.9", "-99", "999.9", "9999", "99999", "-8888", "-32768", "1e20", "", "NaN", "--", "null"])
+@pytest.mark.parametrize("flag", ["-999", "-9999", "-9999.0", "-999.9", "-99.9", "-99", "999.9", "9999", "99999", "-8888", "-32768", "1e20", "", "NaN", "--", "null", "//", "***"])
 def test_a_value_that_is_missing_lies_between_its_neighbours(levels_of, flag):
     # 1.4 km between two levels, so that the dew point may be bridged
     levels = [(960.0, 350, 20.0, 12.0), (900.0, 920, 17.0, flag), (850.0, 1450, 14.0, 6.0), (500.0, 5700, -15.0, -30.0)]
@@ -204,6 +204,10 @@ def test_of_several_stations_the_nearest_is_taken(levels_of):
     (csv(levels=[*LEVELS[:2], (850.0, 1450, 14.0, -150), *LEVELS[3:]]), "sounding:4: found '850.0,1450,14.0,-150', expected a dew point from -123 C"),
     (csv(levels=[*LEVELS[:2], (850.0, 1450, "warm", 6.0), *LEVELS[3:]]), "sounding:4"),
     (csv(levels=[*LEVELS[:2], (850.0, 1450), *LEVELS[3:]]), "4 fields, one for each name, not 2"),
+    (csv("pressure_hpa,altitude_m,temperature_c,relative humidity_%", [(p, z, t, .5) for p, z, t, _ in LEVELS]),
+     "sounding: its relative humidity is at most 0.5 %: expected per cent, not fractions"),
+    (csv(levels=[(p, z / .3048, t, d) for p, z, t, d in LEVELS]), "sounding: its heights rise by 2.953e+04 m, which is 3.31 times what pressure and temperature give"),
+    (pages().replace("920.0   17.0", "920.0\t17.0"), "expected columns of seven characters, without tabs"),
     (csv(levels=[("960,0", 350, "20,0", "12,0"), *LEVELS[1:]]), "4 fields, one for each name, not 7"),
     (csv("pressure_hpa,altitude_m,temperature,dew_point_c"), "columns with units"),
     (csv("P,Height,Temp,Dewp\nhPa,m,°R,°R"), "columns with units"),
