@@ -1,6 +1,8 @@
 #include "base/number.h"
 #include "command/command.h"
+#include "command/command_validate_scene.h"
 #include "command/command_value.h"
+#include "files/file_name.h"
 #include "files/output_file.h"
 #include "image/curve.h"
 #include "image/picture.h"
@@ -19,7 +21,10 @@ static const char command[] = "radsig validate";
 static const char purpose[] =
     "Takes a level surface through measured weather and compares its temperature with the\n"
     "measured one over the last full day: prints rmse_c, bias_c (predicted less measured),\n"
-    "peak_lag_min. The table needs surface_temperature, or longwave_up and longwave_down.\n";
+    "peak_lag_min. The table needs surface_temperature, or longwave_up and longwave_down.\n"
+    "\n"
+    "radsig validate thermal SCENE.toml FILE.csv does it for the facets of a scene, with any\n"
+    "weather, over several days: see radsig validate thermal SCENE.toml --help.\n";
 
 typedef struct validation {
     const char *table, *output, *plot;
@@ -122,17 +127,26 @@ static double radiating_k(double up_w_m2, double down_w_m2, double emissivity)
     return pow(fmax(0.0, emitted_w_m2) / (emissivity * (double)STEFAN_BOLTZMANN), 0.25);
 }
 
+static bool has_longwave(const weather *w)
+{
+    for (size_t i = 0; i < w->count; i++)
+        if (w->record[i].longwave_w_m2 > 0.0) return true;
+    return false;
+}
+
 static status set_measured(weather_table *t, const validation *v)
 {
     status rc = STATUS_OK;
     const weather *w = t->history;
 
     if (t->surface_k) return STATUS_OK;
-    NEED(t->longwave_up_w_m2 && w->record[0].longwave_w_m2 > 0.0, STATUS_FORMAT,
+    NEED(t->longwave_up_w_m2 && has_longwave(w), STATUS_FORMAT,
          "%s: has neither surface_temperature nor longwave_up and longwave_down", v->table);
     t->surface_k = malloc(w->count * sizeof *t->surface_k);
     NEED(t->surface_k, STATUS_MEMORY, "no memory for %zu temperatures", w->count);
     for (size_t i = 0; i < w->count; i++) {
+        t->surface_k[i] = NAN;
+        if (isnan(t->longwave_up_w_m2[i]) || !(w->record[i].longwave_w_m2 > 0.0)) continue;
         t->surface_k[i] = radiating_k(t->longwave_up_w_m2[i], w->record[i].longwave_w_m2,
                                       (double)v->material.thermal_emissivity);
         NEED(value_check_kelvin((float)t->surface_k[i]), STATUS_FORMAT,
@@ -163,9 +177,10 @@ out:
     return rc;
 }
 
-/* Compares from the last full day on. */
-static void print_difference(const weather_table *t, const float *predicted_k)
+/* Compares from the last full day on, where there are measurements. */
+static status print_difference(const weather_table *t, const float *predicted_k, const char *path)
 {
+    status rc = STATUS_OK;
     const weather *w = t->history;
     const double start_h = weather_day_start_h(w) - 1e-6;
     size_t count = 0, peak = 0, measured_peak = 0;
@@ -173,15 +188,18 @@ static void print_difference(const weather_table *t, const float *predicted_k)
 
     for (size_t i = 0; i < w->count; i++) {
         const double difference = (double)predicted_k[i] - t->surface_k[i];
-        if (w->record[i].time_h < start_h) continue;
+        if (w->record[i].time_h < start_h || isnan(difference)) continue;
         if (count++ == 0) peak = measured_peak = i;
         if (predicted_k[i] > predicted_k[peak]) peak = i;
         if (t->surface_k[i] > t->surface_k[measured_peak]) measured_peak = i;
         sum += difference;
         squares += difference * difference;
     }
+    NEED(count > 0, STATUS_FORMAT, "%s: no measured temperature on the last full day", path);
     printf("rmse_c %.3f\nbias_c %.3f\npeak_lag_min %.0f\n", sqrt(squares / (double)count),
            sum / (double)count, 60.0 * (w->record[peak].time_h - w->record[measured_peak].time_h));
+out:
+    return rc;
 }
 
 static status write_rows(const char *path, const weather_table *t, const float *predicted_k)
@@ -191,10 +209,12 @@ static status write_rows(const char *path, const weather_table *t, const float *
 
     TRY(output_file_open(&file, path));
     fputs("time_h,measured_c,predicted_c\n", output_file_stream(file));
-    for (size_t i = 0; i < t->history->count; i++)
+    for (size_t i = 0; i < t->history->count; i++) {
+        if (isnan(t->surface_k[i])) continue;
         fprintf(output_file_stream(file), "%.4f,%.4f,%.4f\n", t->history->record[i].time_h,
                 t->surface_k[i] - (double)ZERO_CELSIUS_K,
                 (double)predicted_k[i] - (double)ZERO_CELSIUS_K);
+    }
     TRY(output_file_commit(file));
 out:
     output_file_free(file);
@@ -243,7 +263,7 @@ static status run(const validation *v)
     TRY(predict(v, t.history, predicted_k));
     if (v->output) TRY(write_rows(v->output, &t, predicted_k));
     if (v->plot) TRY(plot(v->plot, &t, predicted_k));
-    print_difference(&t, predicted_k);
+    TRY(print_difference(&t, predicted_k, v->table));
 out:
     free(predicted_k);
     weather_table_free(&t);
@@ -252,6 +272,7 @@ out:
 
 int command_validate(int argc, char **argv)
 {
+    if (argc > 2 && file_name_ends(argv[2], ".toml")) return command_validate_scene(argc, argv);
     validation v = {.layered = layered_matter_default(), .laws.convection = -1};
     const int code = read_arguments(argc, argv, &v);
 

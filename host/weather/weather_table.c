@@ -353,8 +353,7 @@ out:
 static status read_rows(reader *r)
 {
     status rc = STATUS_OK;
-    static const int whole[] = {AIR,           PRESSURE,    WIND,    DEW_POINT,
-                                LONGWAVE_DOWN, LONGWAVE_UP, SURFACE, RAIN};
+    static const int whole[] = {AIR, PRESSURE, WIND, DEW_POINT, LONGWAVE_DOWN, RAIN};
 
     while (!record_file_at_end(r->file)) TRY(read_row(r));
     if (r->count < 2) TRY(record_file_reject(r->file, "two records or more"));

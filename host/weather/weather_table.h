@@ -9,8 +9,8 @@
 
 typedef struct weather_table {
     weather *history;
-    bool *is_global;          /* shape (history->count): the diffuse light is global irradiance */
-    double *surface_k;        /* shape (history->count); NULL: not measured */
+    bool *is_global;   /* shape (history->count): the diffuse light is global irradiance */
+    double *surface_k; /* shape (history->count), not-a-number: missing; NULL: not measured */
     double *longwave_up_w_m2; /* the same: emitted and reflected */
 } weather_table;
 
@@ -23,7 +23,7 @@ typedef struct weather_table {
  * unit of the same quantity (unit.h). Local clock time, which may be rounded, at an interval that divides an
  * hour. Exactly a day, with the midnight that ends it or without, is taken twice, so that a day's run-in
  * stands before it. Up to an hour that is missing (column.h) is bridged linearly; longwave_down and rain may
- * be missing for longer: the former follows from the air.
+ * be missing for longer: the former follows from the air. What is to compare with is not bridged.
  * Fails with STATUS_FORMAT where that does not hold; out is then empty. */
 status weather_table_read(weather_table *out, const char *path);
 void weather_table_free(weather_table *table);

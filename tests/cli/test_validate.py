@@ -45,6 +45,19 @@ def test_a_constant_error_is_bias_and_rmse(program, tmp_path):
     assert found["rmse_c"] == pytest.approx(1.5, abs=0.01)
 
 
+def test_what_was_not_measured_is_a_gap(program, tmp_path):
+    """Three hours without a value, and longwave that is there by day alone, are not bridged."""
+    gaps = np.where(np.arange(48) // 6 == 3, np.nan, 18.5)
+    found = validate(program, steady_day(tmp_path / "day.csv", gaps), **ARM, **GRASS, output=tmp_path / "rows.csv")
+    table = steady_day(tmp_path / "up.csv", np.where(np.arange(48) > 12, SIGMA * 293.15**4, np.nan))
+    table.write_text(table.read_text().replace("surface_temperature [C]", "longwave_up [W/m2]"))
+    radiated = validate(program, table, **ARM, **GRASS)
+
+    assert found["bias_c"] == pytest.approx(1.5, abs=0.01) and found["rmse_c"] == pytest.approx(1.5, abs=0.01)
+    assert len((tmp_path / "rows.csv").read_text().splitlines()) == 1 + 2 * 42
+    assert radiated["rmse_c"] == pytest.approx(0.0, abs=0.01)
+
+
 def test_rows_are_written_on_demand(program, tmp_path):
     table = steady_day(tmp_path / "day.csv", 18.5)
     validate(program, table, **ARM, **GRASS, output=tmp_path / "rows.csv")
