@@ -9,6 +9,7 @@ static const program_command commands[] = {
     {"thermal", command_thermal, "take one facet through a weather history"},
     {"sun", command_sun, "position of the sun"},
     {"weather", command_weather, "write the weather of a scene as a .wth"},
+    {"material", command_material, "list, show and convert materials and their spectra"},
     {"validate", command_validate, "compare temperatures with measured ones"},
     {"view", command_view, "start the preview"},
     {"devices", command_devices, "list the OpenCL devices"},

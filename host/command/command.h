@@ -14,6 +14,7 @@ int command_thermal(int argc, char **argv);
 int command_sun(int argc, char **argv);
 int command_view(int argc, char **argv);
 int command_weather(int argc, char **argv);
+int command_material(int argc, char **argv);
 int command_validate(int argc, char **argv);
 int command_devices(int argc, char **argv);
 

@@ -5,6 +5,9 @@
 
 #include "material/emissivity.h"
 
+/* The most that may be missing of a weight: what lies between is smaller than what measurements are. */
+#define HEAT_WEIGHT_MISSING 0.03
+
 typedef struct heat_mean {
     double value;          /* 0..1 */
     double measured_share; /* of the weight, where there are measurements */

@@ -106,6 +106,11 @@ typedef struct scene {
 status scene_read(scene **out, const char *path, const char *const *setting, size_t setting_count);
 void scene_free(scene *s);
 
+/* Reads materials of libraries (.mat, .toml) as a scene of nothing else.
+ *   name   of the only one that is kept; NULL: all
+ * Fails as scene_read does, and where no material has that name. */
+status scene_read_libraries(scene **out, const char *const *path, size_t count, const char *name);
+
 /* Drops all bands but those named in a list with commas between. Fails with STATUS_ARGUMENT if there
  * is no band of a name. */
 status scene_keep_bands(scene *s, const char *names);

@@ -1,10 +1,10 @@
 #include "scene/scene_library.h"
 
 #include "base/array.h"
+#include "files/file_name.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 enum { FILE_LIMIT = 64 };
 
@@ -92,10 +92,9 @@ out:
     return rc;
 }
 
-/* Reads one file. */
-static void read_file(scene_library *library, scene_reader *reader, const char *path)
+void scene_library_add(scene_library *library, scene_reader *reader, const char *path)
 {
-    const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
+    const char *slash = strrchr(path, '/');
     const size_t index = library->file_count;
     library_file file = {.path = path};
 
@@ -106,7 +105,7 @@ static void read_file(scene_library *library, scene_reader *reader, const char *
         return;
     }
     library->file[library->file_count++] = file;
-    if (dot && !strcasecmp(dot, ".toml")) {
+    if (file_name_ends(path, ".toml")) {
         if (scene_took(reader, read_toml(&library->file[index].toml, path)))
             add_stated(library, reader, index);
     } else if (scene_took(reader, material_library_read(&library->file[index].mat, path))) {
@@ -134,7 +133,7 @@ static void read_files(scene_library *library, scene_reader *reader)
         for (size_t i = 0; i < count; i++) {
             const char *path =
                 scene_add_input(reader, library->node, scene_reader_folder(reader), name[i]);
-            if (path) read_file(library, reader, path);
+            if (path) scene_library_add(library, reader, path);
         }
     }
 }

@@ -37,6 +37,8 @@ typedef struct scene_library {
 /* Reads the files of [library]; `out` is empty. A name or a code that two materials have is a failure that names
  * both. Failures are kept by the reader. */
 void scene_library_read(scene_library *out, scene_reader *reader);
+/* Reads one file; its path belongs to the scene. */
+void scene_library_add(scene_library *library, scene_reader *reader, const char *path);
 void scene_library_free(scene_library *library);
 
 /* NULL if no material has that name or code. */

@@ -379,3 +379,54 @@ out:
     material_aliases_free(&aliases);
     free(from.stated);
 }
+
+/* Keeps the named material of a library, or all. */
+static void use_library(const material_sources *from, const char *name)
+{
+    scene *s = from->reader->s;
+
+    s->materials = calloc(from->library.count + 1, sizeof *s->materials);
+    if (!s->materials) {
+        scene_took(from->reader, status_set(STATUS_MEMORY, "no memory for materials"));
+        return;
+    }
+    for (size_t i = 0; i < from->library.count; i++) {
+        s->medium_count = 0; /* a scene has few, a library any number */
+        if (!name || !strcmp(name, from->library.entry[i].name))
+            use_material(from, from->library.entry[i].name, -1, "library");
+    }
+    if (name && s->material_count == 0 && from->reader->failure_count == 0) {
+        char hint[SPELLING_HINT_SIZE];
+        scene_fail(from->reader, NULL, "unknown material '%s'%s", name, hint_for(from, name, hint));
+    }
+}
+
+status scene_read_libraries(scene **out, const char *const *path, size_t count, const char *name)
+{
+    status rc = STATUS_OK;
+    scene_reader reader = {.s = calloc(1, sizeof(scene))};
+    material_aliases aliases = {0};
+    material_sources from = {.reader = &reader, .aliases = &aliases};
+
+    NEED(reader.s, STATUS_MEMORY, "no memory for materials");
+    reader.s->path = strdup(path[0]);
+    reader.s->folder = strdup("");
+    NEED(reader.s->path && reader.s->folder, STATUS_MEMORY, "no memory for materials");
+    TRY(name_table_open(&from.stated_numbers));
+    TRY(name_table_open(&from.used_numbers));
+    for (size_t i = 0; i < count; i++) {
+        const char *own = scene_add_input(&reader, NULL, "", path[i]);
+        if (own) scene_library_add(&from.library, &reader, own);
+    }
+    use_library(&from, name);
+    if (reader.failure_count > 0) rc = reader.ending ? reader.ending : STATUS_FORMAT;
+    if (rc != STATUS_OK) goto out;
+    *out = reader.s;
+    reader.s = NULL;
+out:
+    name_table_free(from.used_numbers);
+    name_table_free(from.stated_numbers);
+    scene_library_free(&from.library);
+    scene_free(reader.s);
+    return status_finish(rc);
+}

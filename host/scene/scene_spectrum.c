@@ -1,3 +1,4 @@
+#include "files/file_name.h"
 #include "scene/scene_parts.h"
 
 #include <math.h>
@@ -7,7 +8,6 @@
 
 #define NOTE_SIZE 1024
 #define INFRARED_UM 3.0    /* beyond, heat is emitted rather than sunlight reflected */
-#define MISSING_MOST 0.03  /* of a weight, where nothing is known */
 #define MEASURED_LEAST 0.6 /* of a weight, without a warning */
 
 /* Adds a file, and of an ENVI spectral library both of its files. */
@@ -17,11 +17,11 @@ static const char *add_file(scene_reader *reader, const toml_node *node, const c
     const size_t length = strlen(name);
     char other[4096];
 
-    if (length > 4 && length < sizeof other && !strcmp(name + length - 4, ".sli")) {
+    if (length < sizeof other && file_name_ends(name, ".sli")) {
         snprintf(other, sizeof other, "%.*s.hdr", (int)length - 4, name);
         if (!scene_add_input(reader, node, folder, other)) return NULL;
     }
-    if (length > 4 && length < sizeof other && !strcmp(name + length - 4, ".hdr")) {
+    if (length < sizeof other && file_name_ends(name, ".hdr")) {
         snprintf(other, sizeof other, "%.*s.sli", (int)length - 4, name);
         if (!scene_add_input(reader, node, folder, other)) return NULL;
     }
@@ -227,7 +227,7 @@ static void take_heat(scene_reader *reader, const scene_material *m, const state
     if (!isnan(*out)) return;
     *out = (float)mean->value;
     if (reader->s->thermal == SCENE_THERMAL_FIXED) return;
-    if (mean->missing_share > MISSING_MOST && !stated->states_outside)
+    if (mean->missing_share > HEAT_WEIGHT_MISSING && !stated->states_outside)
         scene_fail(reader, stated->node,
                    "material %s: the spectrum lacks %.0f %% of %s: expected a further file, %s, or "
                    "outside = "

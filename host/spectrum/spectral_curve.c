@@ -1,11 +1,11 @@
 #include "spectrum/spectral_curve.h"
 
+#include "files/file_name.h"
 #include "spectrum/spectral_file.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 void spectral_curve_free(spectral_curve *s)
 {
@@ -31,13 +31,6 @@ void spectral_curve_take_kirchhoff(spectral_curve *s)
     s->quantity = SPECTRAL_EMISSIVITY;
 }
 
-static bool ends_with(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), size = strlen(ending);
-
-    return length >= size && !strcasecmp(path + length - size, ending);
-}
-
 static status read_text(spectral_curve **out, const spectral_source *source)
 {
     status rc = STATUS_OK;
@@ -45,7 +38,7 @@ static status read_text(spectral_curve **out, const spectral_source *source)
 
     TRY(record_file_open(&file, source->path));
     const char *line = record_file_peek(file);
-    if (ends_with(source->path, ".yml") || ends_with(source->path, ".yaml") ||
+    if (file_name_ends(source->path, ".yml") || file_name_ends(source->path, ".yaml") ||
         (line && !strncmp(line, "REFERENCES:", 11)))
         TRY(refractive_index_file_read(out, file, source->path));
     else if (line && ecostress_file_begins(line))
@@ -63,7 +56,7 @@ out:
 
 status spectral_curve_read(spectral_curve **out, const spectral_source *source)
 {
-    if (ends_with(source->path, ".sli") || ends_with(source->path, ".hdr"))
+    if (file_name_ends(source->path, ".sli") || file_name_ends(source->path, ".hdr"))
         return envi_library_read(out, source);
     return read_text(out, source);
 }
