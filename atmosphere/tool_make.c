@@ -1,6 +1,7 @@
 #include "database_header.h"
 #include "files/output_folder.h"
 #include "phase_table.h"
+#include "range_error.h"
 #include "sonde_profile.h"
 #include "tool.h"
 
@@ -19,6 +20,7 @@ static const char purpose[] =
     "written\n"
     "as the compact container.\n";
 
+#define MOST_RANGE_ERROR 0.005 /* of a radiance */
 #define THERMAL_FROM_UM 3.0
 #define AUREOLE_BELOW_UM 5.0
 #define NEAR_SUN_DEG 2.0
@@ -92,6 +94,19 @@ static void warn_of_aureole(const database_plan *g, const run_list *r)
                 g->s->path, off / DEGREE);
 }
 
+/* Between ranges that lie far apart. */
+static void warn_of_ranges(const database_plan *g, const atmosphere *air)
+{
+    double from_m, to_m;
+    const double error = range_error_most(air, &from_m, &to_m);
+
+    if (error <= MOST_RANGE_ERROR) return;
+    status_warn(
+        "%s: range_m: between %g and %g m the radiance of a surface 20 K above the air errs by "
+        "%.2g %%: range_m = %g, the farthest alone, has ranges chosen that keep it below 0.5 %%",
+        g->s->path, from_m, to_m, 100.0 * error, air->range_m[air->range_count - 1]);
+}
+
 typedef struct make_options {
     const char *output, *keep_decks;
     site when; /* the time alone */
@@ -124,6 +139,7 @@ static status run(const char *scene_path, const make_options *options)
     if (options->keep_decks) TRY(keep_decks(p.r, options->keep_decks));
     TRY(lowtran_run_decks(run_list_decks(p.r), run_list_names(p.r), run_list_count(p.r), take, &p));
     TRY(run_list_finish(p.r, &air));
+    warn_of_ranges(g, air);
     TRY(database_header(&air->header, g, p.r));
     TRY(tool_write_database(air, options->output));
 out:

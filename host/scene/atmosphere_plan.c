@@ -122,11 +122,44 @@ static int read_ascending(scene_table *t, const char *key, double low, double hi
     return (int)count;
 }
 
+/* Ranges from a metre to the farthest, whole metres as LOWTRAN's cards hold them, one about as many times the
+ * other: between them the radiance of surfaces warmer than the air errs by less than 0.5 %. */
+static void choose_ranges(atmosphere_plan *plan, double farthest_m)
+{
+    const int most = ATMOSPHERE_PLAN_STEPS;
+
+    for (int i = 0; i < most; i++) {
+        const double range_m = round(pow(farthest_m, (double)i / (most - 1)));
+        if (i == 0 || range_m > plan->range_m[plan->range_count - 1])
+            plan->range_m[plan->range_count++] = range_m;
+    }
+}
+
+/* A list, or the farthest. */
+static void read_ranges(atmosphere_plan *plan, scene_table *t)
+{
+    const toml_node *node = scene_table_node(t, "range_m");
+    double farthest_m = 0.0;
+
+    if (node && toml_node_kind(node) == TOML_NUMBER) {
+        if (scene_table_number(t, "range_m", 10.0, 1e5, &farthest_m))
+            choose_ranges(plan, round(farthest_m));
+        return;
+    }
+    plan->range_count = read_ascending(t, "range_m", 1.0, 1e5, plan->range_m);
+    for (int i = 0; i < plan->range_count; i++)
+        if (plan->range_m[i] != round(plan->range_m[i])) {
+            scene_fail(t->reader, node, "%s: found %g, expected whole metres", toml_node_name(node),
+                       plan->range_m[i]);
+            return;
+        }
+}
+
 static void read_grids(atmosphere_plan *plan, scene_table *t)
 {
     plan->target_count = read_ascending(t, "target_altitude_m", plan->ground_altitude_m + 1.0,
                                         plan->sensor_altitude_m - 1.0, plan->target_altitude_m);
-    plan->range_count = read_ascending(t, "range_m", 1.0, 1e5, plan->range_m);
+    read_ranges(plan, t);
     if (plan->thesis && (plan->target_count || plan->range_count))
         scene_fail(t->reader, t->node,
                    "%s: mode \"thesis\" has neither target_altitude_m nor range_m",

@@ -13,7 +13,7 @@ longitude_deg = -84.108888
 time = {time}
 [atmosphere.generate]
 model = "midlatitude-summer"
-sensor_altitude_m = 10000.0
+sensor_altitude_m = {sensor}
 wavenumber_cm1 = [{low}, {high}]
 wavenumber_step_cm1 = 5.0
 path_zenith_deg = [0.0, 60.0, 30.0]
@@ -23,9 +23,10 @@ path_zenith_deg = [0.0, 60.0, 30.0]
 
 @pytest.fixture
 def make(atmosphere, tmp_path):
-    def run(more, low=800.0, high=1000.0, time="1987-06-24T12:00:00-05:00", name="out.radc", code=0):
-        (tmp_path / "scene.toml").write_text(SCENE.format(low=low, high=high, time=time, more=more))
+    def run(more, low=800.0, high=1000.0, time="1987-06-24T12:00:00-05:00", name="out.radc", code=0, sensor=10000.0):
+        (tmp_path / "scene.toml").write_text(SCENE.format(low=low, high=high, time=time, more=more, sensor=sensor))
         done = atmosphere("make", tmp_path / "scene.toml", "-o", tmp_path / name, code=code)
+        run.said = done.stderr
         return done if code else radiance_database.read_container(tmp_path / name)
 
     run.path = tmp_path / "out.radc"
@@ -82,6 +83,47 @@ def test_by_night_no_sunlight_is_in_any_of_them(make):
     assert air["range_emitted"].min() > 0 and air["target_emitted"].min() > 0
 
 
+BANDS_UM = {"lwir": (7.5, 14.0), "10": (10.0, 12.0), "8": (8.0, 9.3), "mwir": (3.0, 5.0), "3": (3.4, 4.1), "4": (4.5, 5.0)}
+
+
+def band_radiance(air, tau, low_um, high_um):
+    """Of a surface 20 K above the air, seen level: W m-2 sr-1."""
+    nu = air["wavenumber"]
+    inside = (1e4 / nu >= low_um) & (1e4 / nu <= high_um)
+    black = planck(nu, AIR_K)
+    return ((tau * planck(nu, AIR_K + 20) + (1 - tau) * black) / nu**2)[..., inside].sum(axis=-1)
+
+
+AIR_K = 294.2  # midlatitude summer at the ground
+
+
+@pytest.mark.parametrize("sensor_m, low, high, bands", [(10000.0, 700.0, 1340.0, ("lwir", "10", "8")), (10000.0, 1990.0, 3340.0, ("mwir", "3", "4")),
+                                                        (2.0, 1990.0, 3340.0, ("mwir", "3", "4"))])
+def test_ranges_that_are_chosen_err_by_half_a_per_cent_at_64_between_them(make, sensor_m, low, high, bands):
+    """LOWTRAN at 64 ranges against ln tau linear between the database's, as a render takes it."""
+    sight = lambda ranges: make(f"range_m = {ranges}\nsky_step_deg = {{ zenith = 45, azimuth = 180 }}", low=low, high=high, sensor=sensor_m)
+    air = sight(30000)
+    between = numpy.unique(numpy.round(numpy.geomspace(3, 29000, 86)))
+    between = between[~numpy.isin(between, air["range"])][:64]
+    truth = numpy.concatenate([sight(between[i:i + 16].tolist())["range_tau"] for i in range(0, 64, 16)])
+    ranges, depth = numpy.r_[0, air["range"]], numpy.vstack([0 * air["range_tau"][:1], -numpy.log(numpy.maximum(air["range_tau"], 1e-30))])
+    taken = numpy.exp(-numpy.array([numpy.interp(between, ranges, depth[:, i]) for i in range(depth.shape[1])]).T)
+
+    assert len(air["range"]) == 16 and air["range"][[0, -1]].tolist() == [1, 30000] and len(truth) == 64
+    for band in bands:
+        assert band_radiance(air, taken, *BANDS_UM[band]) == pytest.approx(band_radiance(air, truth, *BANDS_UM[band]), rel=0.005)
+    assert air["range_emitted"] == pytest.approx((1 - air["range_tau"]) * planck(air["wavenumber"], AIR_K), rel=2e-3, abs=1e-5)
+
+
+def test_ranges_that_lie_far_apart_are_told(make, atmosphere):
+    make("range_m = [1000, 10000]", low=1990.0, high=3340.0)
+    said = make.said
+    make("range_m = 10000", low=1990.0, high=3340.0)
+
+    assert "range_m: between 0 and 1000 m the radiance of a surface 20 K above the air errs by" in said
+    assert "range_m = 10000, the farthest alone" in said and "range_m" not in make.said
+
+
 def test_show_lists_them(make, atmosphere):
     make("range_m = [1000]\ntarget_altitude_m = [2000]")
     said = atmosphere("show", make.path).stdout
@@ -93,7 +135,8 @@ def test_show_lists_them(make, atmosphere):
     ("target_altitude_m = [2000, 1000]", "target_altitude_m: expected rising numbers"),
     ("target_altitude_m = [20000]", "target_altitude_m"),
     ("range_m = []", "range_m: found"),
-    ("range_m = 5000", "range_m: found"),
+    ("range_m = 5", "range_m: found"),
+    ("range_m = [1.5, 20]", "range_m: found 1.5, expected whole metres"),
     ('range_m = [0]', "range_m"),
     ('mode = "thesis"\nrange_m = [1000]', 'mode "thesis" has neither'),
 ])
