@@ -100,7 +100,7 @@ status ecostress_file_read(spectral_curve **out, record_file *file, const char *
 {
     status rc = STATUS_OK;
     ecostress_header h = {0};
-    spectral_series s = {.path = path};
+    spectral_series s = {.path = path, .is_sampled = true};
     double pair[2];
 
     TRY(read_header(&h, file));

@@ -276,7 +276,7 @@ status envi_library_read(spectral_curve **out, const spectral_source *source)
     envi_header h = {.scale = 1.0, .path = path_with(source->path, ".hdr")};
     char *binary = path_with(source->path, ".sli");
     int64_t record;
-    spectral_series s = {.path = binary, .quantity = SPECTRAL_REFLECTANCE};
+    spectral_series s = {.path = binary, .is_sampled = true, .quantity = SPECTRAL_REFLECTANCE};
 
     NEED(h.path && binary, STATUS_MEMORY, "%s: no memory to read it", source->path);
     TRY(read_header(&h, h.path));

@@ -7,11 +7,11 @@
 #include <stdlib.h>
 
 static const double LEAST_UM = 0.1, MOST_UM = 200.0;
-static const double MOST_INDEX = 100.0;
+static const double MOST_INDEX = 1000.0;
 
 #define NOISE 0.02     /* beyond 0 and 1, of what is measured against a standard */
 #define GAP_RATIO 1.21 /* of neighbouring wavelengths: 10 % is held from either side */
-enum { POINT_LIMIT = 1 << 20, POINTS_LEAST = 3, POINTS_SAMPLED = 50 };
+enum { POINT_LIMIT = 1 << 20, POINTS_LEAST = 3 };
 
 status spectral_series_add(spectral_series *s, spectral_point point)
 {
@@ -66,7 +66,7 @@ static status check_value(const spectral_series *s, const spectral_point *p, siz
              (!is_index || value > 0.0),
          STATUS_FORMAT, "%s:%d: found %g%s, expected %s", s->path, p->line, p->value,
          s->scale == 1.0 ? "" : " percent",
-         is_index          ? "n above 0 and k of 0 to 100"
+         is_index          ? "n above 0 and k, of 1000 at most"
          : s->scale == 1.0 ? "values of 0 to 1"
                            : "values of 0 to 100 percent");
     *cut_count += !is_index && (value < 0.0 || value > 1.0);
@@ -97,9 +97,9 @@ out:
 }
 
 /* Whether between two points, `deleted` of the file between them, nothing is known. */
-static bool is_gap(double low_um, double high_um, size_t deleted, size_t count)
+static bool is_gap(const spectral_series *s, double low_um, double high_um, size_t deleted)
 {
-    return deleted > 0 || (count > POINTS_SAMPLED && high_um > GAP_RATIO * low_um);
+    return deleted > 0 || (s->is_sampled && high_um > GAP_RATIO * low_um);
 }
 
 static void fill(spectral_curve *out, const spectral_series *s)
@@ -124,7 +124,7 @@ static void fill(spectral_curve *out, const spectral_series *s)
         else
             out->value[n] = fmin(fmax(out->value[n], 0.0), 1.0);
         out->grid.link[n] = link;
-        if (n > 0 && is_gap(um[n - 1], um[n], deleted, out->grid.count))
+        if (n > 0 && is_gap(s, um[n - 1], um[n], deleted))
             out->grid.link[n - 1] = WAVELENGTH_LINK_GAP;
         deleted = 0;
         n++;

@@ -18,6 +18,7 @@ typedef struct spectral_series {
     const unit *unit; /* of wavelengths or wavenumbers */
     double scale;     /* of values: 0.01 for percent */
     spectral_quantity quantity;
+    bool is_sampled; /* by an instrument, in small steps: a wide one is a gap */
     size_t count;
     spectral_point *point; /* shape (count) */
 } spectral_series;

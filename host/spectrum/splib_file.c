@@ -76,7 +76,10 @@ status splib_file_read(spectral_curve **out, record_file *file, const spectral_s
     char measurement[SPECTRAL_TEXT_SIZE] = "";
     bool is_directional = false;
     const char *title;
-    spectral_series s = {.path = source->path, .unit = unit_find("um", "wavelength"), .scale = 1.0};
+    spectral_series s = {.path = source->path,
+                         .is_sampled = true,
+                         .unit = unit_find("um", "wavelength"),
+                         .scale = 1.0};
 
     TRY(record_file_text(file, &title, "a title"));
     if (!source->wavelength_path) {

@@ -21,6 +21,7 @@ status svc_file_read(spectral_curve **out, record_file *file, const char *path)
     const char *line;
     double row[4];
     spectral_series s = {.path = path,
+                         .is_sampled = true,
                          .unit = unit_find("nm", "wavelength"),
                          .scale = 0.01,
                          .quantity = SPECTRAL_REFLECTANCE};

@@ -51,6 +51,16 @@ static size_t find_low(const wavelength_grid *grid, double wavelength_um)
     return low;
 }
 
+/* In a gap the values of its ends hold as far as they do beyond the last ones; between, where a wide one is not
+ * covered, and over a narrow one they are joined. */
+static double fraction_in_gap(double um, double low_um, double high_um)
+{
+    const double held_low = low_um * (1.0 + HELD_SHARE), held_high = high_um * (1.0 - HELD_SHARE);
+
+    if (held_low >= held_high) return (um - low_um) / (high_um - low_um);
+    return (um - held_low) / (held_high - held_low);
+}
+
 wavelength_place wavelength_grid_find(const wavelength_grid *grid, double wavenumber_cm1)
 {
     if (!grid->wavelength_um) return find_even(grid, wavenumber_cm1);
@@ -60,6 +70,7 @@ wavelength_place wavelength_grid_find(const wavelength_grid *grid, double wavenu
     double fraction = (um - l[0]) / (l[1] - l[0]);
     if (grid->link[low] == WAVELENGTH_LINK_CM1)
         fraction = (1e4 / l[0] - wavenumber_cm1) / (1e4 / l[0] - 1e4 / l[1]);
+    if (grid->link[low] == WAVELENGTH_LINK_GAP) fraction = fraction_in_gap(um, l[0], l[1]);
     return (wavelength_place){low, fmax(0.0, fmin(fraction, 1.0))};
 }
 

@@ -31,6 +31,7 @@ typedef struct wavelength_place {
 status wavelength_grid_make(wavelength_grid *out, size_t count);
 void wavelength_grid_free(wavelength_grid *grid);
 
+/* Finds a wavenumber; beyond the ends, and a tenth of a wavelength into gaps that are wider than two, the place is that of the end. */
 wavelength_place wavelength_grid_find(const wavelength_grid *grid, double wavenumber_cm1);
 
 /* Whether a wavelength was measured: it lies between points, not in a gap. An even grid measures all. */

@@ -109,6 +109,9 @@ static void deleted_channels_are_gaps(void **state)
     assert_near(wavelength_grid_uncovered(&c->grid, 1.0, 2.2), 1.43, 1e-6);
     assert_near(wavelength_grid_uncovered(&c->grid, 1.5, 2.2), 1.5, 0.0);
     assert_true(isnan(wavelength_grid_uncovered(&c->grid, 1.85, 2.6)));
+    assert_near(wavelength_grid_find(&c->grid, 1e4 / 1.42).fraction, 0.0, 0.0); /* held from 1.3 */
+    assert_near(wavelength_grid_find(&c->grid, 1e4 / 1.81).fraction, 1.0, 0.0);
+    assert_near(wavelength_grid_find(&c->grid, 1e4 / 1.615).fraction, .5, 1e-9);
     spectral_curve_free(c);
 }
 
