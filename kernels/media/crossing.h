@@ -31,28 +31,18 @@ static inline float8 crossing_side(const float8 edge, const float8 xa, const flo
 static inline uint crossing_meets(const ray_frame *f, global const bvh_block *block,
                                   const uint leaf, float8 *out_range, uint *out_exits)
 {
-    const triangle_shear s = f->shear;
-    float8 x[3], y[3], z[3];
+    const ray_sight t = ray_see(f, block);
+    const int8 is_area = ray_determinant(&t) != 0.0f;
+    float8 side[3];
 
-    for (int v = 0; v < 3; v++) {
-        z[v] = *(global const float8 *)block->vertex[v][s.z] - f->origin[2];
-        x[v] = (*(global const float8 *)block->vertex[v][s.x] - f->origin[0]) - s.slope_x * z[v];
-        y[v] = (*(global const float8 *)block->vertex[v][s.y] - f->origin[1]) - s.slope_y * z[v];
+    for (int e = 0; e < 3; e++) {
+        const int a = (e + 2) % 3, b = (e + 1) % 3;
+        side[e] = crossing_side(t.edge[e], t.x[a], t.y[a], t.x[b], t.y[b]);
     }
-    const float8 a = x[2] * y[1] - y[2] * x[1];
-    const float8 b = x[0] * y[2] - y[0] * x[2];
-    const float8 c = x[1] * y[0] - y[1] * x[0];
-    const float8 determinant = (a + b) + c;
-    float8 range = ((a * z[0] + b * z[1]) + c * z[2]) * s.scale_z / determinant;
-    const float8 p = crossing_side(a, x[2], y[2], x[1], y[1]);
-    const float8 q = crossing_side(b, x[0], y[0], x[2], y[2]);
-    const float8 t = crossing_side(c, x[1], y[1], x[0], y[0]);
-    const int8 out = (p < 0.0f) & (q < 0.0f) & (t < 0.0f);
-    const int8 in = (p > 0.0f) & (q > 0.0f) & (t > 0.0f);
-    const uint among_long =
-        mask_of_8((in | out) & (determinant != 0.0f)) & ((1u << ray_long_of(leaf)) - 1);
-    if (among_long) range = ray_ranges_of_long(f, block, among_long, MAXFLOAT, range);
-    const int8 ahead = (determinant != 0.0f) & (range > 0.0f);
+    const int8 out = (side[0] < 0.0f) & (side[1] < 0.0f) & (side[2] < 0.0f);
+    const int8 in = (side[0] > 0.0f) & (side[1] > 0.0f) & (side[2] > 0.0f);
+    const float8 range = ray_ranges(f, &t, block, leaf, mask_of_8((in | out) & is_area), MAXFLOAT);
+    const int8 ahead = is_area & (range > 0.0f);
     *out_range = range;
     *out_exits = mask_of_8(out & ahead);
     return mask_of_8(in & ahead);

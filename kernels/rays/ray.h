@@ -150,31 +150,59 @@ RARE float8 ray_ranges_of_long(const ray_frame *f, global const bvh_block *block
     return vload8(0, better);
 }
 
-/* Finds the triangles that the ray meets up to `limit`: a bit each, and where.
- *   leaf   the child word that has the block */
-static inline uint ray_meets(const ray_frame *f, global const bvh_block *block, const uint leaf,
-                             const float limit, float8 *out_range)
+/* Eight triangles as a sheared ray sees them: triangle_sight of each. */
+typedef struct ray_sight {
+    float8 x[3], y[3], z[3], edge[3];
+} ray_sight;
+
+static inline ray_sight ray_see(const ray_frame *f, global const bvh_block *block)
 {
     const triangle_shear s = f->shear;
-    float8 x[3], y[3], z[3];
+    ray_sight t;
 
     UNROLL
     for (int v = 0; v < 3; v++) {
-        z[v] = *(global const float8 *)block->vertex[v][s.z] - f->origin[2];
-        x[v] = (*(global const float8 *)block->vertex[v][s.x] - f->origin[0]) - s.slope_x * z[v];
-        y[v] = (*(global const float8 *)block->vertex[v][s.y] - f->origin[1]) - s.slope_y * z[v];
+        t.z[v] = *(global const float8 *)block->vertex[v][s.z] - f->origin[2];
+        t.x[v] =
+            (*(global const float8 *)block->vertex[v][s.x] - f->origin[0]) - s.slope_x * t.z[v];
+        t.y[v] =
+            (*(global const float8 *)block->vertex[v][s.y] - f->origin[1]) - s.slope_y * t.z[v];
     }
-    const float8 a = x[2] * y[1] - y[2] * x[1];
-    const float8 b = x[0] * y[2] - y[0] * x[2];
-    const float8 c = x[1] * y[0] - y[1] * x[0];
+    t.edge[0] = t.x[2] * t.y[1] - t.y[2] * t.x[1];
+    t.edge[1] = t.x[0] * t.y[2] - t.y[0] * t.x[2];
+    t.edge[2] = t.x[1] * t.y[0] - t.y[1] * t.x[0];
+    return t;
+}
+
+static inline float8 ray_determinant(const ray_sight *t)
+{
+    return (t->edge[0] + t->edge[1]) + t->edge[2];
+}
+
+/* The ranges of triangles; those of long ones that the ray is inside of, a bit each, are put right.
+ *   leaf   the child word that has the block */
+static inline float8 ray_ranges(const ray_frame *f, const ray_sight *t,
+                                global const bvh_block *block, const uint leaf, const uint inside,
+                                const float limit)
+{
+    const float8 along = (t->edge[0] * t->z[0] + t->edge[1] * t->z[1]) + t->edge[2] * t->z[2];
+    const float8 range = along * f->shear.scale_z / ray_determinant(t);
+    const uint among_long = inside & ((1u << ray_long_of(leaf)) - 1);
+
+    return among_long ? ray_ranges_of_long(f, block, among_long, limit, range) : range;
+}
+
+/* Finds the triangles that the ray meets up to `limit`: a bit each, and where. */
+static inline uint ray_meets(const ray_frame *f, global const bvh_block *block, const uint leaf,
+                             const float limit, float8 *out_range)
+{
+    const ray_sight t = ray_see(f, block);
+    const float8 a = t.edge[0], b = t.edge[1], c = t.edge[2];
     const int8 front = ray_least(ray_least(a, b), c) >= 0.0f;
     const int8 back = ray_most(ray_most(a, b), c) <= f->back;
     const uint inside = mask_of_8(front | back);
     if (inside == 0) return 0;
-    const float8 determinant = (a + b) + c;
-    float8 range = ((a * z[0] + b * z[1]) + c * z[2]) * s.scale_z / determinant;
-    const uint among_long = inside & ((1u << ray_long_of(leaf)) - 1);
-    if (among_long) range = ray_ranges_of_long(f, block, among_long, limit, range);
+    const float8 range = ray_ranges(f, &t, block, leaf, inside, limit);
     *out_range = range;
     return inside & mask_of_8((range > 0.0f) & (range <= limit));
 }

@@ -1,5 +1,6 @@
+#include "command.h"
+#include "database_output.h"
 #include "import.h"
-#include "tool.h"
 
 static const char command[] = "radsig-atmosphere import";
 
@@ -15,16 +16,16 @@ static status run(const char *path, const char *output)
     atmosphere *air = NULL;
 
     TRY(import_read(&air, path));
-    TRY(tool_write_database(air, output));
+    TRY(database_output_write(air, output));
 out:
     atmosphere_free(air);
     return rc;
 }
 
-int tool_import(int argc, char **argv)
+int command_import(int argc, char **argv)
 {
     const char *output = NULL;
-    option list[] = {tool_output_option(&output, "FILE.rad")};
+    option list[] = {database_output_option(&output, "FILE.rad")};
     const option_table table = {command, "MANIFEST.toml",           1, 1, purpose,
                                 list,    sizeof list / sizeof *list};
     const int code = option_table_read(&table, argc, argv, NULL);

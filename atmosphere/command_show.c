@@ -1,8 +1,8 @@
 #include "base/terminal_text.h"
+#include "command.h"
 #include "database_header.h"
 #include "database_plot.h"
 #include "image/picture.h"
-#include "tool.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -104,7 +104,7 @@ out:
     return rc;
 }
 
-int tool_show(int argc, char **argv)
+int command_show(int argc, char **argv)
 {
     const char *plot = NULL;
     option list[] = {

@@ -1,6 +1,7 @@
+#include "command.h"
+#include "database_output.h"
 #include "deck_file.h"
 #include "run_table.h"
-#include "tool.h"
 
 #include <limits.h>
 
@@ -20,7 +21,7 @@ static status run(char **files, size_t count, const char *output)
     deck_runs runs = {0};
 
     for (size_t i = 0; i < count; i++) TRY(deck_file_read(&runs, files[i]));
-    TRY(tool_check_output(output));
+    TRY(database_output_check(output));
     TRY(run_table_open(&table));
     TRY(lowtran_run_decks((const char *const *)runs.texts, (const char *const *)runs.names,
                           runs.count, run_table_add, table));
@@ -31,10 +32,10 @@ out:
     return rc;
 }
 
-int tool_deck(int argc, char **argv)
+int command_deck(int argc, char **argv)
 {
     const char *output = NULL;
-    option list[] = {tool_output_option(&output, "FILE.rad")};
+    option list[] = {database_output_option(&output, "FILE.rad")};
     const option_table table = {
         command, "FILE.cdk...", 1, INT_MAX, purpose, list, sizeof list / sizeof *list};
     int count = 0;

@@ -1,9 +1,10 @@
+#include "command.h"
 #include "database_header.h"
+#include "database_output.h"
 #include "files/output_folder.h"
 #include "phase_table.h"
 #include "range_error.h"
 #include "sonde_profile.h"
-#include "tool.h"
 
 #include <limits.h>
 #include <math.h>
@@ -126,11 +127,12 @@ static status run(const char *scene_path, const make_options *options)
         g->s->place.time_s = options->when.time_s;
         g->s->place.utc_offset_min = options->when.utc_offset_min;
     }
-    NEED(tool_is_container(options->output) || (!g->plan.target_count && !g->plan.range_count),
+    NEED(database_output_is_container(options->output) ||
+             (!g->plan.target_count && !g->plan.range_count),
          STATUS_ARGUMENT,
          "%s: a text file cannot hold target_altitude_m and range_m, expected -o FILE.radc",
          options->output);
-    TRY(tool_check_output(options->output));
+    TRY(database_output_check(options->output));
     TRY(sonde_profile_cards(&profile_cards, g));
     TRY(phase_table_cards(&phase_cards, g->plan.phase_table));
     TRY(run_list_open(&p.r, &g->plan, &g->s->place, profile_cards, phase_cards));
@@ -141,7 +143,7 @@ static status run(const char *scene_path, const make_options *options)
     TRY(run_list_finish(p.r, &air));
     warn_of_ranges(g, air);
     TRY(database_header(&air->header, g, p.r));
-    TRY(tool_write_database(air, options->output));
+    TRY(database_output_write(air, options->output));
 out:
     atmosphere_free(air);
     run_list_free(p.r);
@@ -159,10 +161,10 @@ static status read_time(const option *o, const char *text)
     return site_parse_time(text, &options->when.time_s, &options->when.utc_offset_min);
 }
 
-int tool_make(int argc, char **argv)
+int command_make(int argc, char **argv)
 {
     make_options options = {0};
-    option list[] = {tool_output_option(&options.output, "FILE.rad"),
+    option list[] = {database_output_option(&options.output, "FILE.rad"),
                      {"time", 0, "ISO", "instead of the scene's: 1987-06-24T10:00:00-05:00",
                       .out = &options, .read = read_time},
                      {"keep-decks", 0, "FOLDER", "write the card deck of each run there",

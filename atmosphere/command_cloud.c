@@ -1,6 +1,7 @@
 #include "base/spelling.h"
 #include "cloud.h"
-#include "tool.h"
+#include "command.h"
+#include "database_output.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -22,7 +23,7 @@ static status run(const cloud_model *model, const char *output)
     const int stem = dot && !strchr(dot, '/') ? (int)(dot - output) : (int)strlen(output);
 
     snprintf(path, sizeof path, "%.*s.scattering.csv", stem, output);
-    TRY(tool_check_output(output));
+    TRY(database_output_check(output));
     TRY(cloud_compute(&c, model));
     TRY(cloud_write_extinction(c, model, output));
     TRY(cloud_write_scattering(c, model, path));
@@ -40,10 +41,10 @@ static const cloud_model *find_model(const char *wanted, spelling *near)
     return NULL;
 }
 
-int tool_cloud(int argc, char **argv)
+int command_cloud(int argc, char **argv)
 {
     const char *output = NULL;
-    option list[] = {tool_output_option(&output, "FILE.ext")};
+    option list[] = {database_output_option(&output, "FILE.ext")};
     const option_table table = {command, "NAME", 1, 1, purpose, list, sizeof list / sizeof *list};
     const int code = option_table_read(&table, argc, argv, NULL);
     char hint[SPELLING_HINT_SIZE];
