@@ -3,8 +3,8 @@
 #include "mesh/facet_sample.h"
 #include "sunlight/sun_history.h"
 #include "thermal/exchange.h"
+#include "thermal/facet_check.h"
 #include "thermal/thermal.h"
-#include "thermal/value_check.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -247,23 +247,6 @@ out:
     return rc;
 }
 
-/* Whether the facets can have their temperatures: those that no pixel shows shine too. What has no area
- * has none. */
-static status check_facets(const temperature_solver *t, const scene *s, const float *facet_k)
-{
-    const geometry *g = s->shape;
-    char text[1024];
-
-    for (uint32_t i = 0; i < t->facet_count; i++) {
-        if (value_check_kelvin(facet_k[i])) continue;
-        if (i < g->facet_count && !(g->area_m2[i] > 0.0f && isfinite(g->area_m2[i]))) continue;
-        return status_set(STATUS_ARGUMENT, "%s: found a temperature of %g K, expected %s",
-                          scene_facet_text(s, i, text, sizeof text), (double)facet_k[i],
-                          VALUE_CHECK_RANGE);
-    }
-    return STATUS_OK;
-}
-
 static status warm_facets(temperature_solver *t, const scene *s, const ray_scene *rays)
 {
     status rc = STATUS_OK;
@@ -278,7 +261,7 @@ static status warm_facets(temperature_solver *t, const scene *s, const ray_scene
     } else {
         for (size_t i = 0; i < t->facet_count; i++) facet_k[i] = t->facet[i].stated_temperature_k;
     }
-    TRY(check_facets(t, s, facet_k));
+    TRY(facet_check(s, t->facet, t->facet_count, facet_k));
     TRY(device_allocate(t->dev, &t->facet_temperature_k, t->facet_count, facet_k));
 out:
     free(facet_k);

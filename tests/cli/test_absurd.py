@@ -36,6 +36,25 @@ def test_a_facet_that_no_pixel_shows_is_named_too(program, tmp_path):
     assert "tank.obj: face 1 of object tank, part lid, material steel: found a temp" in said
 
 
+@pytest.mark.parametrize("mode", ["exact", "thesis"])
+@pytest.mark.parametrize("power, kelvin", [(-3000.0, "1"), (1e6, "20")])  # a heat pump of 3 kW; (1e6 / sigma)^(1/4) = 2049 K
+def test_power_that_no_surface_has_is_warned_about_with_the_facet_s_name(program, tmp_path, mode, power, kelvin):
+    scene = program.write_scene(tmp_path, geometry=[{"file": "plane.obj", "power_w_m2": power}], material=[{"name": "wall", **MATTER}],
+                                weather=WEATHER, render={"thermal": "therm", "mode": mode})
+    done = program.run("render", scene, "-o", tmp_path / "out")
+
+    assert done.returncode == 0
+    assert f"plane.obj: face 0 of object plane, part part, material wall: its power of {power:g} W/m2" in done.stderr
+    assert f"takes it to {kelvin}" in done.stderr and "expected 228" in done.stderr  # 15 C less 60 K
+
+
+def test_engines_and_coolers_are_not_warned_about(program, tmp_path):
+    for power in (-150.0, 2e4, 2e5):  # (2e5 / sigma)^(1/4) = 1370 K
+        scene = program.write_scene(tmp_path, geometry=[{"file": "plane.obj", "power_w_m2": power}], material=[{"name": "wall", **MATTER}],
+                                    weather=WEATHER, render={"thermal": "therm"})
+        assert "its power" not in program.run("render", scene, "-o", tmp_path / "out").stderr
+
+
 def test_a_plane_that_is_not_finite_is_named_with_its_facet(program, tmp_path):
     # 1e9 W m-2 um-1 of sun times a gain of 1e30 is beyond a float
     said = refused(program, tmp_path, atmosphere={"uniform": {
