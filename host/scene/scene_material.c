@@ -257,11 +257,21 @@ static void fail_unknown(const material_sources *from, const char *name, const c
                from->aliases->count ? ", and no alias matches it" : "", hint_for(from, name, hint));
 }
 
+/* A material of the library: by its code in a .mat, or else, where the code is -1 or no .mat has it, by its name. */
+static const library_entry *find_known(const material_sources *from, const char *name, int code)
+{
+    const library_entry *entry = code >= 0 ? scene_library_by_code(&from->library, code)
+                                           : scene_library_by_name(&from->library, name);
+
+    if (entry || code < 0) return entry;
+    entry = scene_library_by_name(&from->library, name);
+    return entry && entry->node ? entry : NULL;
+}
+
 static bool is_known(const material_sources *from, const char *name, int code)
 {
     if (find_stated(from, name)) return true;
-    return code >= 0 ? scene_library_by_code(&from->library, code) != NULL
-                     : scene_library_by_name(&from->library, name) != NULL;
+    return find_known(from, name, code) != NULL;
 }
 
 /* Every alias leads to a material, whether a mesh needs it or not. */
@@ -298,8 +308,7 @@ static uint32_t use_material(const material_sources *from, const char *name, int
         code = -1;
     }
     const stated_material *stated = find_stated(from, name);
-    known = code >= 0 && !stated ? scene_library_by_code(&from->library, code)
-                                 : scene_library_by_name(&from->library, name);
+    known = find_known(from, name, stated ? -1 : code);
     if (!known && !stated) {
         if (alias) return RECORD_NONE; /* check_aliases tells it */
         if (from->library.node && !from->library.is_read)

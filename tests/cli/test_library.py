@@ -48,6 +48,15 @@ def test_the_scene_changes_a_material_of_a_toml_library(check):
     assert "thermal emissivity 0.50, diffuse" in done.stdout and "spectrum " not in done.stdout
 
 
+def test_a_code_that_no_mat_has_is_found_by_its_name(program, check, tmp_path):
+    """A .gdb names materials by code and name."""
+
+    done = check(["lib/a.toml"], {"a.toml": WALL.replace('"wall"', '"brick"'), "wall.csv": CURVE},
+                 geometry=[{"file": str(program.airport / "airport.gdb")}], render={"thermal": "fixed"})
+
+    assert "(tar) is not in the library" in done.stderr and "(brick)" not in done.stderr
+
+
 def test_numbers_of_toml_materials_follow_the_codes_of_all_mat_files(check):
     done = check(["lib/a.toml", "lib/b.mat"], {"a.toml": WALL, "wall.csv": CURVE, "b.mat": MAT})
 
