@@ -38,8 +38,8 @@ extern struct {
 
 /* Transmissions, and the sun, at ascending wavenumbers. */
 typedef struct paths {
-    double tau[2 * ALTITUDES][EXTINCTION_WAVENUMBERS];
-    double sun[EXTINCTION_WAVENUMBERS];
+    double tau[2 * ALTITUDES][WAVENUMBER_ROWS];
+    double sun[WAVENUMBER_ROWS];
 } paths;
 
 static status take(void *receiver, size_t index, const lowtran_run *run)
@@ -47,9 +47,9 @@ static status take(void *receiver, size_t index, const lowtran_run *run)
     status rc = STATUS_OK;
     paths *p = receiver;
 
-    NEED(run->point_count == EXTINCTION_WAVENUMBERS, STATUS_FORMAT,
-         "LOWTRAN gave %d points, expected %d", run->point_count, EXTINCTION_WAVENUMBERS);
-    for (int i = 0; i < EXTINCTION_WAVENUMBERS; i++) {
+    NEED(run->point_count == WAVENUMBER_ROWS, STATUS_FORMAT, "LOWTRAN gave %d points, expected %d",
+         run->point_count, WAVENUMBER_ROWS);
+    for (int i = 0; i < WAVENUMBER_ROWS; i++) {
         if (index < 2 * ALTITUDES)
             p->tau[index][i] = (double)run->tau[i];
         else
@@ -65,8 +65,8 @@ static status write_deck(char **out, const cloud_model *model, int run)
     const double fraction = (run / 2 + .5) / ALTITUDES;
     card_deck deck = {.model = 2, .itype = 1, .noprt = 1, .ihaze = 1, .icstl = 1, .dv_cm1 = 100.0};
 
-    deck.v1_cm1 = EXTINCTION_FIRST_CM1 - (EXTINCTION_WAVENUMBERS - 1) * EXTINCTION_STEP_CM1;
-    deck.v2_cm1 = EXTINCTION_FIRST_CM1;
+    deck.v1_cm1 = WAVENUMBER_ROWS_FIRST_CM1 - (WAVENUMBER_ROWS - 1) * WAVENUMBER_ROWS_STEP_CM1;
+    deck.v2_cm1 = WAVENUMBER_ROWS_FIRST_CM1;
     if (run == 2 * ALTITUDES) {
         deck.itype = 3;
         deck.iemsct = 3;
@@ -112,28 +112,28 @@ static void set_extinction(cloud *c, const paths *p)
 {
     double sum = 0.0, weight = 0.0;
 
-    for (int i = 0; i < EXTINCTION_WAVENUMBERS; i++) {
-        const int from = EXTINCTION_WAVENUMBERS - 1 - i;
-        const double wavenumber = EXTINCTION_FIRST_CM1 - i * EXTINCTION_STEP_CM1;
+    for (int i = 0; i < WAVENUMBER_ROWS; i++) {
+        const int from = WAVENUMBER_ROWS - 1 - i;
+        const double wavenumber = WAVENUMBER_ROWS_FIRST_CM1 - i * WAVENUMBER_ROWS_STEP_CM1;
         double total = 0.0;
         for (int k = 0; k < ALTITUDES; k++)
             total -= log(p->tau[2 * k + 1][from] / p->tau[2 * k][from]) / PATH_KM;
-        c->mean.per_m[i] = fmax(0.0, total / ALTITUDES) * PER_KM;
+        c->per_m[i] = fmax(0.0, total / ALTITUDES) * PER_KM;
         if (wavenumber < FIRST_BROAD_CM1 || wavenumber > LAST_BROAD_CM1) continue;
         /* Irradiance is per um: per wavenumber it has the square of the wavelength. */
         const double fraction = p->sun[from] / (wavenumber * wavenumber);
-        sum += fraction * c->mean.per_m[i];
+        sum += fraction * c->per_m[i];
         weight += fraction;
     }
-    c->mean.broad_band_per_m = sum / weight;
+    c->broad_band_per_m = sum / weight;
 }
 
 static void set_scattering(cloud *c, const cloud_model *model)
 {
     const float(*const table)[TABLE] = extd_.cloud[model->icld - 1];
 
-    for (int i = 0; i < EXTINCTION_WAVENUMBERS; i++) {
-        const double um = 1e4 / (EXTINCTION_FIRST_CM1 - i * EXTINCTION_STEP_CM1);
+    for (int i = 0; i < WAVENUMBER_ROWS; i++) {
+        const double um = 1e4 / (WAVENUMBER_ROWS_FIRST_CM1 - i * WAVENUMBER_ROWS_STEP_CM1);
         c->albedo[i] = 1.0 - look_up(table[1], um) / look_up(table[0], um);
         c->asymmetry[i] = look_up(table[2], um);
     }
@@ -144,7 +144,7 @@ static status check(const paths *p, const cloud_model *model)
     status rc = STATUS_OK;
 
     for (int k = 0; k < 2 * ALTITUDES; k++)
-        for (int i = 0; i < EXTINCTION_WAVENUMBERS; i++)
+        for (int i = 0; i < WAVENUMBER_ROWS; i++)
             NEED(p->tau[k][i] > 0.0, STATUS_FORMAT, "%s: LOWTRAN's path number %d is opaque",
                  model->name, k);
 out:
@@ -189,10 +189,10 @@ status cloud_write_extinction(const cloud *c, const cloud_model *model, const ch
             "# First the mean over .4 to 2.5 um weighted by the sun, then wavenumber, extinction.\n"
             "# radsig-atmosphere cloud %s\n" LOWTRAN_SOURCE_HEADER,
             model->name, model->base_km, model->top_km, model->name);
-    fprintf(stream, "%.6f\n", c->mean.broad_band_per_m / PER_KM);
-    for (int i = 0; i < EXTINCTION_WAVENUMBERS; i++)
-        fprintf(stream, "%d %.6f\n", EXTINCTION_FIRST_CM1 - i * EXTINCTION_STEP_CM1,
-                c->mean.per_m[i] / PER_KM);
+    fprintf(stream, "%.6f\n", c->broad_band_per_m / PER_KM);
+    for (int i = 0; i < WAVENUMBER_ROWS; i++)
+        fprintf(stream, "%d %.6f\n", WAVENUMBER_ROWS_FIRST_CM1 - i * WAVENUMBER_ROWS_STEP_CM1,
+                c->per_m[i] / PER_KM);
     TRY(output_file_commit(file));
 out:
     output_file_free(file);
@@ -210,8 +210,8 @@ status cloud_write_scattering(const cloud *c, const cloud_model *model, const ch
             "# Scattering of LOWTRAN 7's cloud %s, from its tables.\n" LOWTRAN_SOURCE_HEADER,
             model->name);
     fputs("wavenumber_cm1,single_scattering_albedo,asymmetry\n", stream);
-    for (int i = 0; i < EXTINCTION_WAVENUMBERS; i++)
-        fprintf(stream, "%d,%.6f,%.6f\n", EXTINCTION_FIRST_CM1 - i * EXTINCTION_STEP_CM1,
+    for (int i = 0; i < WAVENUMBER_ROWS; i++)
+        fprintf(stream, "%d,%.6f,%.6f\n", WAVENUMBER_ROWS_FIRST_CM1 - i * WAVENUMBER_ROWS_STEP_CM1,
                 c->albedo[i], c->asymmetry[i]);
     TRY(output_file_commit(file));
 out:

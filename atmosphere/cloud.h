@@ -3,7 +3,7 @@
 #ifndef CLOUD_H
 #define CLOUD_H
 
-#include "material/extinction.h"
+#include "material/wavenumber_rows.h"
 
 enum { CLOUD_COUNT = 5 };
 
@@ -18,9 +18,10 @@ extern const cloud_model cloud_models[CLOUD_COUNT];
 
 /* Means over the layer at the wavenumbers of an .ext file. */
 typedef struct cloud {
-    extinction mean; /* its broad band is weighted by the sun outside the atmosphere */
-    double albedo[EXTINCTION_WAVENUMBERS];    /* single-scattering, 0..1 */
-    double asymmetry[EXTINCTION_WAVENUMBERS]; /* -1..1 */
+    double broad_band_per_m; /* extinction, weighted by the sun outside the atmosphere */
+    double per_m[WAVENUMBER_ROWS];
+    double albedo[WAVENUMBER_ROWS];    /* single-scattering, 0..1 */
+    double asymmetry[WAVENUMBER_ROWS]; /* -1..1 */
 } cloud;
 
 /* Runs LOWTRAN along level paths of 20 m through the cloud and through the same air without it

@@ -76,11 +76,6 @@ void emissivity_free(emissivity *e)
     free(e);
 }
 
-static double between(const double *values, wavelength_place at)
-{
-    return values[at.low] + at.fraction * (values[at.low + 1] - values[at.low]);
-}
-
 status emissivity_make(emissivity **out, spectral_curve *const *curve, const double *angle_deg,
                        size_t count, emissivity_law law)
 {
@@ -98,9 +93,8 @@ status emissivity_make(emissivity **out, spectral_curve *const *curve, const dou
     for (size_t a = 0; a < count; a++) {
         if (angle_deg) e->angle_deg[a] = angle_deg[a];
         for (size_t i = 0; i < n; i++)
-            e->value[a * n + i] =
-                (float)between(curve[a]->value,
-                               wavelength_grid_find(&curve[a]->grid, 1e4 / grid->wavelength_um[i]));
+            e->value[a * n + i] = (float)wavelength_grid_value(&curve[a]->grid, curve[a]->value,
+                                                               1e4 / grid->wavelength_um[i]);
     }
     for (size_t i = 0; i < n && is_optical; i++) e->value[n + i] = (float)curve[0]->absorption[i];
     *out = e;

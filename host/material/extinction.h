@@ -5,25 +5,16 @@
 
 #include "material/wavenumber_rows.h"
 
-enum {
-    EXTINCTION_WAVENUMBERS = WAVENUMBER_ROWS,
-    EXTINCTION_FIRST_CM1 = WAVENUMBER_ROWS_FIRST_CM1,
-    EXTINCTION_STEP_CM1 = WAVENUMBER_ROWS_STEP_CM1
-};
-
 /* Transmission over z metres: exp(-value z). */
 typedef struct extinction {
-    double broad_band_per_m; /* 0.4 to 2.5 um, for insolation */
-    double per_m[EXTINCTION_WAVENUMBERS];
+    double broad_band_per_m; /* 0.4 to 2.5 um, for insolation; not-a-number: the file has none */
+    wavelength_grid grid;
+    double *per_m; /* shape (grid.count) */
 } extinction;
 
-/* Reads an .ext file, which is per km; leading lines that start with '#' are passed over. */
+/* Reads an .ext file, or a CSV of wavelengths and extinction_per_km (wavelength_table.h); both are per km. Leading lines
+ * that start with '#' are passed over. */
 status extinction_read(extinction **out, const char *path);
 void extinction_free(extinction *e);
-
-/* Value at a wavenumber of a table on extinction's wavenumbers: linear, the last value beyond the
- * ends.
- *   table   shape (EXTINCTION_WAVENUMBERS) */
-double extinction_between(const double *table, double wavenumber_cm1);
 
 #endif

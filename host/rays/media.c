@@ -152,11 +152,11 @@ bool media_scatter(const media *b)
 }
 
 /* A table's value per sample; without one a constant. */
-static void fill(float *row, const double *table, double constant, const double *wavenumber_cm1,
-                 uint32_t count)
+static void fill(float *row, const wavelength_grid *grid, const double *table, double constant,
+                 const double *wavenumber_cm1, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
-        row[i] = (float)(table ? extinction_between(table, wavenumber_cm1[i]) : constant);
+        row[i] = (float)(table ? wavelength_grid_value(grid, table, wavenumber_cm1[i]) : constant);
 }
 
 status media_sample(const media *b, const double *wavenumber_cm1, uint32_t count, float_buffer *out)
@@ -169,13 +169,14 @@ status media_sample(const media *b, const double *wavenumber_cm1, uint32_t count
     for (uint32_t m = 0; m < b->s->medium_count; m++) {
         const scene_material *from = &b->s->materials[b->s->medium_material[m]];
         float *const own = rows + (size_t)m * count;
-        fill(own, from->extinction ? from->extinction->per_m : NULL, from->grey_extinction_per_m,
+        const extinction *e = from->extinction;
+        const scattering *sc = from->scattering;
+        fill(own, e ? &e->grid : NULL, e ? e->per_m : NULL, from->grey_extinction_per_m,
              wavenumber_cm1, count);
-        if (!from->scattering) continue;
-        fill(own + (size_t)CLOUD_ALBEDO * count, from->scattering->albedo, 0.0, wavenumber_cm1,
+        if (!sc) continue;
+        fill(own + (size_t)CLOUD_ALBEDO * count, &sc->grid, sc->albedo, 0.0, wavenumber_cm1, count);
+        fill(own + (size_t)CLOUD_ASYMMETRY * count, &sc->grid, sc->asymmetry, 0.0, wavenumber_cm1,
              count);
-        fill(own + (size_t)CLOUD_ASYMMETRY * count, from->scattering->asymmetry, 0.0,
-             wavenumber_cm1, count);
     }
     TRY(device_allocate(b->dev, out, values, rows));
 out:

@@ -8,6 +8,7 @@
 #include "files/input_hash.h"
 #include "kernels/media/transmission.h"
 #include "material/emissivity.h"
+#include "material/extinction.h"
 #include "material/heat_schedule.h"
 #include "material/heat_weight.h"
 #include "material/layered.h"

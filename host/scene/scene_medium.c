@@ -3,6 +3,34 @@
 
 #include <math.h>
 
+/* Fails where a band needs what a table does not have. */
+static void check_bands(scene_reader *reader, const scene_material *m, const toml_node *node,
+                        const wavelength_grid *grid, const char *what)
+{
+    char ranges[256];
+    const band *b = NULL;
+    const double um = scene_uncovered(reader->s, grid, &b);
+
+    if (!isnan(um))
+        scene_fail(reader, node, "material %s: band %s needs %s at %.4g um, the table has %s um",
+                   m->name, b->name, what, um, wavelength_grid_text(grid, ranges, sizeof ranges));
+}
+
+/* Reads a table; beside one without a broad band a number is that. */
+static void take_extinction(scene_reader *reader, scene_material *m, const toml_node *node,
+                            const char *path, double per_km)
+{
+    if (!scene_took(reader, extinction_read(&m->extinction, path))) return;
+    if (!isnan(per_km)) m->extinction->broad_band_per_m = 1e-3 * per_km;
+    if (isnan(m->extinction->broad_band_per_m))
+        scene_fail(
+            reader, node,
+            "material %s: %s has no broad-band extinction, expected extinction_per_km beside "
+            "it, that of sunlight",
+            m->name, path);
+    check_bands(reader, m, node, &m->extinction->grid, "extinction");
+}
+
 void scene_read_medium(scene_reader *reader, scene_material *m, const toml_node *node,
                        const char *path, double per_km)
 {
@@ -10,7 +38,7 @@ void scene_read_medium(scene_reader *reader, scene_material *m, const toml_node 
 
     m->medium = RECORD_NONE;
     if (path)
-        scene_took(reader, extinction_read(&m->extinction, path));
+        take_extinction(reader, m, node, path, per_km);
     else if (isnan(per_km))
         return;
     else
@@ -32,8 +60,8 @@ void scene_read_scattering(scene_reader *reader, scene_material *m, const toml_n
                    "material %s: states scattering_file and is opaque, expected extinction_file or "
                    "extinction_per_km too",
                    m->name);
-    else
-        scene_took(reader, scattering_read(&m->scattering, path));
+    else if (scene_took(reader, scattering_read(&m->scattering, path)))
+        check_bands(reader, m, node, &m->scattering->grid, "scattering");
 }
 
 /* Three times the volume that a material's facets enclose, their area, and by how much they do not

@@ -60,6 +60,9 @@ void scene_read_spectrum(scene_table *t, stated_spectrum *out);
  * it where that is not a number yet; after the bands. */
 void scene_take_spectrum(scene_reader *reader, scene_material *m, const stated_spectrum *stated);
 
+/* The first wavelength that a band needs and a grid does not cover, and the band; not-a-number: there is none. */
+double scene_uncovered(const scene *s, const wavelength_grid *grid, const band **out_band);
+
 /* Gives bands the samples that they need beside their own, so that their integrals of the materials' spectra are
  * right; when all else is read. */
 void scene_place_samples(scene_reader *reader);

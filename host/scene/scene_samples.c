@@ -87,6 +87,20 @@ out:
     return rc;
 }
 
+double scene_uncovered(const scene *s, const wavelength_grid *grid, const band **out_band)
+{
+    for (uint32_t i = 0; s->air && i < s->band_count; i++) {
+        const band *b = &s->bands[i];
+        const double low_um = b->sensor ? s->air->wavelength_um[0] : b->low_um;
+        const double high_um =
+            b->sensor ? s->air->wavelength_um[s->air->point_count - 1] : b->high_um;
+        const double um = wavelength_grid_uncovered(grid, low_um, high_um);
+        *out_band = b;
+        if (!isnan(um)) return um;
+    }
+    return NAN;
+}
+
 void scene_place_samples(scene_reader *reader)
 {
     scene *s = reader->s;

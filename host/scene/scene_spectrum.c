@@ -199,25 +199,16 @@ out:
 static void check_bands(scene_reader *reader, const scene_material *m,
                         const stated_spectrum *stated)
 {
-    const scene *s = reader->s;
     char ranges[NOTE_SIZE];
+    const band *b = NULL;
+    const double um = scene_uncovered(reader->s, &m->table->grid, &b);
 
-    if (stated->states_outside || !s->air) return;
-    for (uint32_t i = 0; i < s->band_count; i++) {
-        const band *b = &s->bands[i];
-        const double low_um = b->sensor ? s->air->wavelength_um[0] : b->low_um;
-        const double high_um =
-            b->sensor ? s->air->wavelength_um[s->air->point_count - 1] : b->high_um;
-        const double um = wavelength_grid_uncovered(&m->table->grid, low_um, high_um);
-        if (isnan(um)) continue;
-        scene_fail(
-            reader, stated->node,
-            "material %s: band %s needs %.4g to %.4g um, the spectrum has %s um, and a tenth of a "
-            "wavelength beyond: expected a further file, or outside = \"hold\" or a number",
-            m->name, b->name, low_um, high_um,
-            wavelength_grid_text(&m->table->grid, ranges, sizeof ranges));
-        return;
-    }
+    if (!stated->states_outside && !isnan(um))
+        scene_fail(reader, stated->node,
+                   "material %s: band %s needs %.4g um, the spectrum has %s um, and a tenth of a "
+                   "wavelength beyond: expected a further file, or outside = \"hold\" or a number",
+                   m->name, b->name, um,
+                   wavelength_grid_text(&m->table->grid, ranges, sizeof ranges));
 }
 
 /* Sets what heat exchange takes of the spectrum where nothing else is stated. */

@@ -74,6 +74,14 @@ wavelength_place wavelength_grid_find(const wavelength_grid *grid, double wavenu
     return (wavelength_place){low, fmax(0.0, fmin(fraction, 1.0))};
 }
 
+double wavelength_grid_value(const wavelength_grid *grid, const double *value,
+                             double wavenumber_cm1)
+{
+    const wavelength_place at = wavelength_grid_find(grid, wavenumber_cm1);
+
+    return value[at.low] + at.fraction * (value[at.low + 1] - value[at.low]);
+}
+
 bool wavelength_grid_measures(const wavelength_grid *grid, double wavelength_um)
 {
     const double *l = grid->wavelength_um;

@@ -34,6 +34,11 @@ void wavelength_grid_free(wavelength_grid *grid);
 /* Finds a wavenumber; beyond the ends, and a tenth of a wavelength into gaps that are wider than two, the place is that of the end. */
 wavelength_place wavelength_grid_find(const wavelength_grid *grid, double wavenumber_cm1);
 
+/* A table's value at a wavenumber.
+ *   value   shape (grid->count) */
+double wavelength_grid_value(const wavelength_grid *grid, const double *value,
+                             double wavenumber_cm1);
+
 /* Whether a wavelength was measured: it lies between points, not in a gap. An even grid measures all. */
 bool wavelength_grid_measures(const wavelength_grid *grid, double wavelength_um);
 

@@ -201,3 +201,43 @@ def test_ground_below_a_thin_cloud_is_between_sun_and_shade(warm):
     assert shade.sum() > 50
     assert (warm["thin"]["temperature_c"] < warm["clear"]["temperature_c"] - 1)[shade].all()
     assert (warm["thin"]["temperature_c"] > warm["dense"]["temperature_c"] + 1)[shade].all()
+
+
+@pytest.mark.parametrize("heading, place", [("wavelength_um", lambda um: um),
+                                            ("wavenumber_cm1", lambda um: 1e4 / um)])
+def test_a_body_takes_its_extinction_from_a_table_on_its_own_wavelengths(program, radiance, tmp_path,
+                                                                         heading, place):
+    um, per_km = np.array([7.5, 9.0, 9.2, 9.4, 12.0, 15.0]), np.array([10.0, 10.0, 80.0, 10.0, 40.0, 40.0])
+    rows = "".join(f"{place(x)!r},{y}\n" for x, y in zip(um.tolist(), per_km.tolist()))
+    (tmp_path / "smoke.csv").write_text(f"# smoke\n{heading},extinction_per_km\n{rows}")
+    scene = under(SLAB)
+    scene["material"][1]["extinction_file"] = "smoke.csv"
+
+    got = program.render(tmp_path, **scene)
+
+    def at(x):
+        if heading == "wavelength_um":
+            return np.interp(x, um, per_km)
+        return np.interp(1e4 / x, 1e4 / um[::-1], per_km[::-1])
+
+    slant = slants(program, radiance)[3, 4]
+    tau = lambda x: np.exp(-at(x) / 1000 * 10 * slant)
+    expected = sum(radiance.integral(
+        lambda x: tau(x) * radiance.planck(x, 300) + (1 - tau(x)) * radiance.planck(x, 260), a, b)
+        for a, b in zip([8, 9, 9.2, 9.4, 12], [9, 9.2, 9.4, 12, 14]))
+    assert got.planes["radiance_lwir"][3, 4] == pytest.approx(expected, rel=BAND)
+
+
+@pytest.mark.parametrize("rows, keys, expected", [
+    ("7,1\n9,1\n14,1\n", {}, "expected extinction_per_km beside it"),
+    ("9.1,1\n10,1\n14,1\n", {"extinction_per_km": 1.0}, "band lwir needs extinction at 8 um, the table has 9.1 to 14 um"),
+    ("7,1\n9,1\n9,1\n", {"extinction_per_km": 1.0}, "smoke.csv:4: found '9,1', expected wavelengths that only rise"),
+])
+def test_a_table_of_extinction_that_does_not_do_is_refused(program, tmp_path, rows, keys, expected):
+    (tmp_path / "smoke.csv").write_text(f"wavelength_um,extinction_per_km\n{rows}")
+    scene = under(SLAB)
+    scene["material"][1] = {"name": "cloud", "temperature_k": 260.0, "extinction_file": "smoke.csv", **keys}
+
+    done = program.run("check", program.write_scene(tmp_path, **scene))
+
+    assert done.returncode == 1 and expected in done.stderr

@@ -148,7 +148,7 @@ def test_a_table_of_scattering_with_an_albedo_above_1_is_refused(program, tmp_pa
     done = check(program, tmp_path, table(1).replace("39750,1,", "39750,1.5,"), **BODY)
 
     assert done.returncode == 1
-    assert "cloud.csv:4: found '39750,1.5,0.85', expected 39750" in done.stderr
+    assert "cloud.csv:4: found '39750,1.5,0.85', expected single_scattering_albedo from 0 to 1" in done.stderr
 
 
 def test_a_table_of_scattering_without_its_columns_is_refused(program, tmp_path):

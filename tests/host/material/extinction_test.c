@@ -12,17 +12,17 @@ static const double last_rows[] = {32.444673, 33.563504, 33.793211, 31.616106, 2
 
 enum {
     FIRST = sizeof first_rows / sizeof first_rows[0],
-    LAST = EXTINCTION_WAVENUMBERS - sizeof last_rows / sizeof last_rows[0]
+    LAST = WAVENUMBER_ROWS - sizeof last_rows / sizeof last_rows[0]
 };
 
-static char table[EXTINCTION_WAVENUMBERS * 24];
+static char table[WAVENUMBER_ROWS * 24];
 
 /* The rows that the thesis leaves out repeat its thirteenth. */
 static int fill_table(void **state)
 {
     char *to = table + sprintf(table, "25.8\n");
 
-    for (int i = 0; i < EXTINCTION_WAVENUMBERS; i++) {
+    for (int i = 0; i < WAVENUMBER_ROWS; i++) {
         const double value =
             i >= LAST ? last_rows[i - LAST] : first_rows[i < FIRST ? i : FIRST - 1];
         to += sprintf(to, "%d %f\n", 39850 - 100 * i, value);
@@ -51,11 +51,34 @@ static void extinction_is_linear_between_rows_and_constant_beyond_them(void **st
 
     (void)state;
     assert_int_equal(extinction_read(&e, text_file_with(table, "", "")), STATUS_OK);
-    assert_near(extinction_between(e->per_m, 950.0), 0.025977480, 1e-12);
-    assert_near(extinction_between(e->per_m, 900.0), .5 * (e->per_m[389] + e->per_m[390]), 1e-12);
-    assert_near(extinction_between(e->per_m, 5e4), 0.020470046, 1e-12);
-    assert_near(extinction_between(e->per_m, 100.0), e->per_m[395], 1e-12);
+    assert_near(wavelength_grid_value(&e->grid, e->per_m, 950.0), 0.025977480, 1e-12);
+    assert_near(wavelength_grid_value(&e->grid, e->per_m, 900.0),
+                .5 * (e->per_m[389] + e->per_m[390]), 1e-12);
+    assert_near(wavelength_grid_value(&e->grid, e->per_m, 5e4), 0.020470046, 1e-12);
+    assert_near(wavelength_grid_value(&e->grid, e->per_m, 100.0), e->per_m[395], 1e-12);
     extinction_free(e);
+}
+
+static void a_csv_keeps_its_own_wavelengths(void **state)
+{
+    extinction *e = NULL;
+
+    (void)state;
+    assert_int_equal(
+        extinction_read(
+            &e, text_file("# smoke\nwavelength_um,extinction_per_km\n0.4,30\n0.5,20\n12,10\n")),
+        STATUS_OK);
+    assert_true(isnan(e->broad_band_per_m));
+    assert_near(wavelength_grid_value(&e->grid, e->per_m, 1e4 / .45), .025, 1e-12);
+    assert_near(wavelength_grid_value(&e->grid, e->per_m, 1e4 / 6.25), .015, 1e-12);
+    extinction_free(e);
+    e = NULL;
+    assert_refused(
+        extinction_read(&e, text_file("wavelength_um,extinction_per_km\n0.4,30\n0.5,-1\n12,10\n")),
+        3, "extinction_per_km from 0 to");
+    assert_refused(extinction_read(&e, text_file("wavelength,extinction_per_km\n0.4,30\n")), 1,
+                   "wavelength_um, wavelength_nm or wavenumber_cm1, extinction_per_km");
+    assert_null(e);
 }
 
 static void a_wrong_row_is_refused_at_its_line(void **state)
@@ -86,6 +109,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_printed_cloud_is_read_per_metre),
         cmocka_unit_test(extinction_is_linear_between_rows_and_constant_beyond_them),
+        cmocka_unit_test(a_csv_keeps_its_own_wavelengths),
         cmocka_unit_test(a_wrong_row_is_refused_at_its_line),
     };
 
