@@ -7,6 +7,7 @@
 #include "image/curve.h"
 #include "image/picture.h"
 #include "kernels/constants.h"
+#include "station/measured_table.h"
 #include "thermal/thermal.h"
 #include "thermal/value_check.h"
 #include "weather/weather_table.h"
@@ -119,14 +120,6 @@ static int read_arguments(int argc, char **argv, validation *out)
     return code == OPTION_TABLE_DONE ? check_use(&table, out, argv) : code;
 }
 
-/* Temperature of a grey surface from what it emits and reflects. */
-static double radiating_k(double up_w_m2, double down_w_m2, double emissivity)
-{
-    const double emitted_w_m2 = up_w_m2 - (1.0 - emissivity) * down_w_m2;
-
-    return pow(fmax(0.0, emitted_w_m2) / (emissivity * (double)STEFAN_BOLTZMANN), 0.25);
-}
-
 static bool has_longwave(const weather *w)
 {
     for (size_t i = 0; i < w->count; i++)
@@ -147,8 +140,9 @@ static status set_measured(weather_table *t, const validation *v)
     for (size_t i = 0; i < w->count; i++) {
         t->surface_k[i] = NAN;
         if (isnan(t->longwave_up_w_m2[i]) || !(w->record[i].longwave_w_m2 > 0.0)) continue;
-        t->surface_k[i] = radiating_k(t->longwave_up_w_m2[i], w->record[i].longwave_w_m2,
-                                      (double)v->material.thermal_emissivity);
+        t->surface_k[i] =
+            measured_table_radiating_k(t->longwave_up_w_m2[i], w->record[i].longwave_w_m2,
+                                       (double)v->material.thermal_emissivity);
         NEED(value_check_kelvin((float)t->surface_k[i]), STATUS_FORMAT,
              "%s: record %zu: longwave_up of %g and longwave_down of %g W/m2 make a surface of %g "
              "K, expected %s",

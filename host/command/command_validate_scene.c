@@ -2,6 +2,7 @@
 
 #include "base/spelling.h"
 #include "command/command_scene.h"
+#include "files/file_name.h"
 #include "files/output_file.h"
 #include "kernels/constants.h"
 #include "options/program.h"
@@ -23,12 +24,13 @@ static const char purpose[] =
     "that were measured, on one day or several. A column of FILE.csv, as roof [C], names an\n"
     "object, a part or a material, whose mean over the area is taken. Prints for each column\n"
     "name,count,rmse_c,bias_c,peak_lag_min: predicted less measured, the lag in the mean of "
-    "days.\n";
+    "days.\n"
+    "SURFRAD days, FILE.dat, hold the longwave from the ground, which --facets names.\n";
 
 enum { STEPS = 97 /* of a day, both midnights */ };
 
 typedef struct validation {
-    const char *scene, *measured, *output;
+    const char *scene, *measured, *output, *facets;
     command_settings settings;
     measured_table table;
     double *predicted_k; /* shape (rows, columns) */
@@ -73,15 +75,22 @@ out:
     return rc;
 }
 
-/* The mean over the area of what a column names. */
-static double mean_k(const scene *s, const char *name, const float *facet_k)
+static double emissivity_of(const scene *s, uint32_t facet)
+{
+    const uint32_t material = s->material_of[s->shape->material[facet]];
+
+    return (double)s->materials[material].record.thermal_emissivity;
+}
+
+/* The mean over the area of what a column names, of temperatures or, NULL, emissivities. */
+static double mean_of(const scene *s, const char *name, const float *facet_k)
 {
     double sum = 0.0, area = 0.0;
 
     for (uint32_t i = 0; i < s->shape->facet_count; i++) {
         const double here = (double)s->shape->area_m2[i];
         if (!(here > 0.0) || !is_named(s, i, name)) continue;
-        sum += here * (double)facet_k[i];
+        sum += here * (facet_k ? (double)facet_k[i] : emissivity_of(s, i));
         area += here;
     }
     return sum / area;
@@ -127,7 +136,7 @@ static status take_step(day *d, const validation *v, int step, const double **ou
     *out_k = k;
     if (!isnan(k[0])) return STATUS_OK;
     TRY(facet_course_at(d->course, d->midnight_s + fmin(step * STEP_S, DAY_S - 1.0), d->facet_k));
-    for (size_t i = 0; i < columns; i++) k[i] = mean_k(d->s, v->table.name[i], d->facet_k);
+    for (size_t i = 0; i < columns; i++) k[i] = mean_of(d->s, v->table.name[i], d->facet_k);
 out:
     return rc;
 }
@@ -265,6 +274,22 @@ out:
     return rc;
 }
 
+static status read_measured(validation *v, const scene *s)
+{
+    status rc = STATUS_OK;
+
+    if (!file_name_ends(v->measured, ".dat"))
+        return measured_table_read(&v->table, v->measured, &s->place);
+    NEED(v->facets, STATUS_ARGUMENT,
+         "%s: expected --facets NAME, the object, part or material that SURFRAD looks at",
+         v->measured);
+    TRY(check_name(s, v->facets, v->scene));
+    TRY(measured_table_surfrad(&v->table, v->measured, &s->place, v->facets,
+                               mean_of(s, v->facets, NULL)));
+out:
+    return rc;
+}
+
 static status run(validation *v)
 {
     status rc = STATUS_OK;
@@ -274,7 +299,7 @@ static status run(validation *v)
     NEED(s->history, STATUS_FORMAT, "%s: has no [weather], expected one that warms its facets",
          v->scene);
     v->utc_offset_min = s->place.utc_offset_min;
-    TRY(measured_table_read(&v->table, v->measured, &s->place));
+    TRY(read_measured(v, s));
     v->predicted_k = malloc(v->table.count * v->table.column_count * sizeof *v->predicted_k);
     NEED(v->predicted_k, STATUS_MEMORY, "no memory for %zu temperatures", v->table.count);
     for (size_t i = 0; i < v->table.count * v->table.column_count; i++) v->predicted_k[i] = NAN;
@@ -292,8 +317,9 @@ int command_validate_scene(int argc, char **argv)
     validation v = {0};
     option list[] = {
         command_set_option(&v.settings),
+        {"facets", 0, "NAME", "what SURFRAD's longwave from the ground is of", .text = &v.facets},
         {"output", 'o', "FILE.csv", "write time,name,measured_c,predicted_c", .text = &v.output}};
-    const option_table table = {command, "thermal SCENE.toml FILE.csv", 3, 3, purpose,
+    const option_table table = {command, "thermal SCENE.toml FILE", 3, 3, purpose,
                                 list,    sizeof list / sizeof *list};
     int code = option_table_read(&table, argc, argv, NULL);
 

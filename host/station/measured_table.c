@@ -5,7 +5,9 @@
 #include "files/column.h"
 #include "files/csv_row.h"
 #include "files/heading.h"
+#include "kernels/constants.h"
 #include "station/date_text.h"
+#include "station/weather_surfrad.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,6 +15,7 @@
 #include <string.h>
 
 #define HOUR_S 3600.0
+#define DAY_S 86400.0
 
 enum { NAME_SIZE = 256 };
 
@@ -142,6 +145,68 @@ out:
     free(r.place);
     csv_row_free(&r.row);
     record_file_free(r.file);
+    return rc;
+}
+
+double measured_table_radiating_k(double up_w_m2, double down_w_m2, double emissivity)
+{
+    const double emitted_w_m2 = up_w_m2 - (1.0 - emissivity) * down_w_m2;
+
+    return pow(fmax(0.0, emitted_w_m2) / (emissivity * (double)STEFAN_BOLTZMANN), 0.25);
+}
+
+/* Behind the last sample of the local day that has sample `first`. */
+static size_t end_of_day(const weather_series *series, size_t first, const site *place)
+{
+    const double offset_s = 60.0 * place->utc_offset_min;
+    const double day = floor((series->sample[first].end_s + offset_s) / DAY_S);
+    size_t end = first;
+
+    while (end < series->count && floor((series->sample[end].end_s + offset_s) / DAY_S) == day)
+        end++;
+    return end;
+}
+
+static void add_samples(measured_table *t, const weather_series *series, size_t first, size_t end,
+                        double emissivity)
+{
+    for (size_t i = first; i < end; i++, t->count++) {
+        const double up = series->sample[i].value[WEATHER_SERIES_LONGWAVE_UP_W_M2];
+        const double down = series->sample[i].value[WEATHER_SERIES_LONGWAVE_W_M2];
+        t->time_s[t->count] = series->sample[i].end_s;
+        t->temperature_k[t->count] =
+            isnan(up + down) ? (double)NAN : measured_table_radiating_k(up, down, emissivity);
+    }
+}
+
+status measured_table_surfrad(measured_table *out, const char *path, const site *place,
+                              const char *name, double emissivity)
+{
+    status rc = STATUS_OK;
+    weather_series series = {0};
+    measured_table t = {.column_count = 1};
+
+    TRY(weather_surfrad_samples(&series, path, place));
+    t.name = calloc(1, sizeof *t.name);
+    t.time_s = malloc(series.count * sizeof *t.time_s);
+    t.temperature_k = malloc(series.count * sizeof *t.temperature_k);
+    NEED(t.name && t.time_s && t.temperature_k && (t.name[0] = strdup(name)), STATUS_MEMORY,
+         "no memory for %zu measured rows", series.count);
+    for (size_t first = 0, end; first < series.count; first = end) {
+        end = end_of_day(&series, first, place);
+        const double span_s = series.sample[end - 1].end_s - series.sample[first].end_s;
+        if (span_s >= 0.5 * DAY_S) add_samples(&t, &series, first, end, emissivity);
+    }
+    if (t.count < series.count)
+        status_warn(
+            "%s: %zu samples are of local days of which less than half is there, and are left "
+            "out of the comparison",
+            path, series.count - t.count);
+    *out = t;
+    t = (measured_table){0};
+out:
+    measured_table_free(&t);
+    weather_series_free(&series);
     return rc;
 }
 

@@ -21,6 +21,16 @@ typedef struct measured_table {
  * have the site's.
  * Fails with STATUS_FORMAT where that does not hold, or times do not rise. */
 status measured_table_read(measured_table *out, const char *path, const site *place);
+/* Takes SURFRAD days (weather_surfrad.h) as one column: the temperature of ground that sends up the measured
+ * longwave, of which it reflects 1 - emissivity of what comes down. Local days of which less than half is there
+ * are left out, with a warning. */
+status measured_table_surfrad(measured_table *out, const char *path, const site *place,
+                              const char *name, double emissivity);
+
 void measured_table_free(measured_table *table);
+
+/* The temperature of a grey surface from the longwave that leaves it, emitted and reflected, and that comes
+ * down. */
+double measured_table_radiating_k(double up_w_m2, double down_w_m2, double emissivity);
 
 #endif

@@ -30,6 +30,7 @@ const char *const weather_series_names[WEATHER_SERIES_COUNT] = {
     [WEATHER_SERIES_RAIN_M_S] = "rain",
     [WEATHER_SERIES_HUMIDITY] = "relative humidity",
     [WEATHER_SERIES_GLOBAL_W_M2] = "global irradiance",
+    [WEATHER_SERIES_LONGWAVE_UP_W_M2] = "longwave from the ground",
 };
 
 status weather_series_add(weather_series *series, size_t *room, const weather_sample *sample)
@@ -74,12 +75,14 @@ static double time_of(const making *m, int record)
     return m->first_s + (double)record * WEATHER_INTERVAL_S;
 }
 
-/* Means of the short spans whose middles lie around a record. */
+/* Means of the short spans whose middles lie around a record; of the beam those alone with the sun up or down as
+ * at the record, if there are any. */
 static void set_means(making *m, int record)
 {
+    const int beam = WEATHER_SERIES_DIRECT_W_M2;
     const double time_s = time_of(m, record), half_s = 0.5 * WEATHER_INTERVAL_S;
     int count[WEATHER_SERIES_COUNT] = {0};
-    double sum[WEATHER_SERIES_COUNT] = {0};
+    double sum[WEATHER_SERIES_COUNT] = {0}, other_w_m2 = (double)NAN;
 
     for (size_t i = 0; i < m->cells.count; i++) {
         const double middle_s = m->cells.cell[i].end_s - 0.5 * m->cells.span_s;
@@ -87,13 +90,15 @@ static void set_means(making *m, int record)
         const bool is_day = is_up(m->place, middle_s) == is_up(m->place, time_s);
         for (int q = 0; q < WEATHER_SERIES_COUNT; q++) {
             const double value = m->cells.cell[i].value[q];
-            if (isnan(value) || (q == WEATHER_SERIES_DIRECT_W_M2 && !is_day)) continue;
+            if (q == beam && !is_day) other_w_m2 = value;
+            if (isnan(value) || (q == beam && !is_day)) continue;
             sum[q] += value;
             count[q]++;
         }
     }
     for (int q = 0; q < WEATHER_SERIES_COUNT; q++)
         m->value[record][q] = count[q] ? sum[q] / count[q] : (double)NAN;
+    if (!count[beam]) m->value[record][beam] = other_w_m2;
 }
 
 /* The air between the ends of two long spans. */

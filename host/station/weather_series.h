@@ -16,8 +16,9 @@ enum {
     WEATHER_SERIES_LONGWAVE_W_M2,
     WEATHER_SERIES_COVER, /* of clouds, 0..1 */
     WEATHER_SERIES_RAIN_M_S,
-    WEATHER_SERIES_HUMIDITY,    /* relative, 0..1 */
-    WEATHER_SERIES_GLOBAL_W_M2, /* direct and diffuse on a level plane */
+    WEATHER_SERIES_HUMIDITY,         /* relative, 0..1 */
+    WEATHER_SERIES_GLOBAL_W_M2,      /* direct and diffuse on a level plane */
+    WEATHER_SERIES_LONGWAVE_UP_W_M2, /* from the ground: to compare with */
     WEATHER_SERIES_COUNT
 };
 

@@ -20,6 +20,7 @@ static const column columns[WEATHER_SERIES_COUNT] = {
     [WEATHER_SERIES_DIRECT_W_M2] = {"direct sun", "W/m2", 12, -50, 1500, false},
     [WEATHER_SERIES_DIFFUSE_W_M2] = {"diffuse light", "W/m2", 14, -50, 1500, false},
     [WEATHER_SERIES_LONGWAVE_W_M2] = {"longwave", "W/m2", 16, 10, 1000, false},
+    [WEATHER_SERIES_LONGWAVE_UP_W_M2] = {"longwave from the ground", "W/m2", 22, 10, 1500, false},
     [WEATHER_SERIES_AIR_K] = {"air temperature", "C", 38, -90, 60, false},
     [WEATHER_SERIES_HUMIDITY] = {"relative humidity", "%", 40, 0, 110, false},
     [WEATHER_SERIES_WIND_M_S] = {"wind speed", "m/s", 42, 0, 100, false},
@@ -153,7 +154,7 @@ static bool is_row(record_file *file)
     return next && isdigit((unsigned char)next[strspn(next, " \t\r\n")]);
 }
 
-status weather_surfrad_read(weather **out, const char *path, const site *place)
+status weather_surfrad_samples(weather_series *out, const char *path, const site *place)
 {
     status rc = STATUS_OK;
     surfrad s = {.series = {.path = path, .utc_offset_h = NAN}, .nearest = nearest_place_of(place)};
@@ -171,9 +172,22 @@ status weather_surfrad_read(weather **out, const char *path, const site *place)
          "%s: samples are %g minutes apart, expected 15 at most", path, s.series.span_s / 60.0);
     column_gaps_tell(&s.gaps, path);
     nearest_place_tell(&s.nearest, &s.series);
-    TRY(weather_series_history(out, &s.series, place));
+    *out = s.series;
+    s.series = (weather_series){0};
 out:
     weather_series_free(&s.series);
     record_file_free(s.file);
+    return rc;
+}
+
+status weather_surfrad_read(weather **out, const char *path, const site *place)
+{
+    status rc = STATUS_OK;
+    weather_series series = {0};
+
+    TRY(weather_surfrad_samples(&series, path, place));
+    TRY(weather_series_history(out, &series, place));
+out:
+    weather_series_free(&series);
     return rc;
 }

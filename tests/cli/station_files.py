@@ -63,7 +63,7 @@ def surfrad_text(*days, value=None, longitude="77.67", step_min=3):
             now = time + datetime.timedelta(minutes=i * step_min)
             v = {"direct": 800.0, "diffuse": 100.0, "infrared": 330.0, "air": 20.0, "rh": 50.0,
                  "wind": 3.0, "pressure": 995.0, **(value(now) if value else {})}
-            pairs = [0.0, 0.0, v["direct"], v["diffuse"], v["infrared"], 0, 0, 400.0, 0, 0, 0, 0, 0,
+            pairs = [0.0, 0.0, v["direct"], v["diffuse"], v["infrared"], 0, 0, v.get("up", 400.0), 0, 0, 0, 0, 0,
                      0, 0, v["air"], v["rh"], v["wind"], 180.0, v["pressure"]]
             hours = now.hour + now.minute / 60
             text += (f" 1992 {now.timetuple().tm_yday} {now.month} {now.day} {now.hour} {now.minute}"

@@ -92,6 +92,26 @@ def test_surfrad_days_warm_a_scene_and_rows_are_written(program, tmp_path):
     assert float(table[1].split(",")[3]) == pytest.approx(20.0, abs=0.02)
 
 
+def test_longwave_from_the_ground_of_surfrad_is_that_of_the_facets_named(program, tmp_path):
+    """Ground of emissivity 0.9 at 18 C under a sky of 20 C; a flag by night."""
+    sky = SIGMA * 293.15**4
+    up = 0.9 * SIGMA * 291.15**4 + 0.1 * sky
+    day = surfrad_text(22, 23, 24, value=lambda now: {"direct": 0.0, "diffuse": 0.0, "air": 20.0, "rh": 40.0, "infrared": round(sky, 3),
+                                                      "up": -9999.9 if now.hour < 3 else round(up, 3)}, step_min=15)
+    (tmp_path / "y.dat").write_text(day)
+    scene = program.write_scene(tmp_path, meshes={"house.obj": MESH}, geometry=[{"file": "house.obj"}], site=SITE, weather={"history": "y.dat"},
+                                material=[MATTER], render={"thermal": "layered"})
+    done = program.run("validate", "thermal", scene, tmp_path / "y.dat", "--facets=wall")
+    name, count, rmse, bias, _ = done.stdout.splitlines()[1].split(",")
+
+    # UTC's days end at 20 h local time: the first evening is left out, with its 4 h of which 3 lack a value
+    assert name == "wall" and int(count) == 3 * 96 - 16 - 2 * 12
+    assert "y.dat: 16 samples are of local days of which less than half is there" in done.stderr
+    assert float(bias) == pytest.approx(2.0, abs=0.03) and float(rmse) == pytest.approx(2.0, abs=0.03)
+    assert "y.dat: expected --facets NAME" in program.run("validate", "thermal", scene, tmp_path / "y.dat").stderr
+    assert "no object, part or material 'wal' (did you mean 'wall'?)" in program.run("validate", "thermal", scene, tmp_path / "y.dat", "--facets=wal").stderr
+
+
 @pytest.mark.parametrize("measured, message", [
     ("time,rof [C]\n1992-06-23T12:00-04:00,20\n", "measured.csv: the scene has no object, part or material 'rof' (did you mean 'roof'?)"),
     ("time,roof\n1992-06-23T12:00-04:00,20\n", "measured.csv:1: found 'time,roof', expected columns as name [C], not 'roof'"),

@@ -62,3 +62,12 @@ def test_an_hour_in_quarters_is_the_hour(program, tmp_path):
     hours, _ = read(program, tmp_path, epw_text())
 
     assert np.sum(quarters[96:192, DIRECT]) == pytest.approx(np.sum(hours[96:192, DIRECT]), rel=0.01)
+
+
+@pytest.mark.parametrize("day", range(11, 19))
+def test_quarters_around_sunrise_are_whole_on_every_day(program, tmp_path, day):
+    """The middle of a record may lie before sunrise and the time that it is taken for behind; sunrise moves by 14 minutes."""
+    (tmp_path / "year.epw").write_text(epw_text(first=(1992, 3, 10), days=10, minutes=QUARTERS))
+    rows, _ = history(program, tmp_path, "year.epw", time=f"1992-03-{day}T15:00:00-05:00")
+
+    assert np.isfinite(rows).all()
