@@ -5,6 +5,7 @@ import io
 import numpy as np
 import pytest
 from station_files import SITE, epw_text, surfrad_text
+from test_validate import GRASS, arm_day  # noqa: F401
 
 SIGMA = 5.670374419e-8
 MATTER = {"name": "wall", "emissivity": 0.9, "density_kg_m3": 2000.0, "specific_heat_j_kg_k": 900.0,
@@ -110,6 +111,24 @@ def test_longwave_from_the_ground_of_surfrad_is_that_of_the_facets_named(program
     assert float(bias) == pytest.approx(2.0, abs=0.03) and float(rmse) == pytest.approx(2.0, abs=0.03)
     assert "y.dat: expected --facets NAME" in program.run("validate", "thermal", scene, tmp_path / "y.dat").stderr
     assert "no object, part or material 'wal' (did you mean 'wall'?)" in program.run("validate", "thermal", scene, tmp_path / "y.dat", "--facets=wal").stderr
+
+
+def test_grass_of_a_measured_day_is_met_within_a_degree_and_a_half(program, tmp_path, arm_day):  # noqa: F811
+    """The ARM day of test_validate as a scene: by the longwave that was measured, and by what radiates so."""
+    table = np.genfromtxt(arm_day[1], delimiter=",", names=True)
+    names = open(arm_day[1]).readline().strip().split(",")
+    skin = table[table.dtype.names[[name.startswith("surface_temp") for name in names].index(True)]]
+    (tmp_path / "measured.csv").write_text("time [h],lawn [K]\n" + "".join(f"{h:.2f},{k:.3f}\n" for h, k in zip(table[table.dtype.names[0]], skin)))
+    grass = {"name": "lawn", "emissivity": GRASS["thermal-emissivity"], "solar_absorptance": GRASS["solar-absorptance"], "density_kg_m3": 1000.0,
+             "specific_heat_j_kg_k": GRASS["heat-capacity-j-m3-k"] / 1000, "conductivity_w_m_k": GRASS["conductivity-w-m-k"],
+             "thickness_cm": float(GRASS["thickness-cm"]), "surface_resistance_s_m": {"day": 50.0, "night": 200.0}}
+    scene = program.write_scene(tmp_path, site={"latitude_deg": 36.3735, "longitude_deg": -97.0691, "time": "2023-06-01T12:00:00+00:00"},
+                                geometry=[{"file": "plane.obj", "material": "lawn"}], meshes={"plane.obj": program.plane.replace("usemtl wall\n", "")},
+                                material=[grass], weather={"history": str(arm_day[0])}, render={"thermal": "layered"})
+    done = program.run("validate", "thermal", scene, tmp_path / "measured.csv")
+    name, count, rmse, bias, lag = done.stdout.splitlines()[1].split(",")
+
+    assert (name, count) == ("lawn", "48") and float(rmse) < 1.5 and abs(float(lag)) <= 60  # the notes' bound, measured longwave
 
 
 @pytest.mark.parametrize("measured, message", [
