@@ -7,6 +7,7 @@
 #include "image/curve.h"
 #include "image/picture.h"
 #include "kernels/constants.h"
+#include "station/dated_table.h"
 #include "station/measured_table.h"
 #include "thermal/thermal.h"
 #include "thermal/value_check.h"
@@ -243,6 +244,21 @@ out:
     return rc;
 }
 
+/* Weather with dates goes with a scene, which tells its place and surfaces. */
+static status check_kind(const char *path)
+{
+    status rc = STATUS_OK;
+    bool has_dates = !file_name_ends(path, ".csv");
+
+    if (!has_dates) TRY(dated_table_is(&has_dates, path));
+    NEED(!has_dates, STATUS_FORMAT,
+         "%s: expected a .csv with hours; other weather is a scene's: radsig validate thermal "
+         "SCENE.toml FILE",
+         path);
+out:
+    return rc;
+}
+
 static status run(const validation *v)
 {
     status rc = STATUS_OK;
@@ -250,6 +266,7 @@ static status run(const validation *v)
     float *predicted_k = NULL;
 
     if (v->plot) TRY(picture_prepare());
+    TRY(check_kind(v->table));
     TRY(weather_table_read(&t, v->table));
     TRY(set_measured(&t, v));
     predicted_k = malloc(t.history->count * sizeof *predicted_k);

@@ -1,5 +1,6 @@
 #include "command/command_validate_scene.h"
 
+#include "base/interrupt.h"
 #include "base/spelling.h"
 #include "command/command_scene.h"
 #include "files/file_name.h"
@@ -135,6 +136,7 @@ static status take_step(day *d, const validation *v, int step, const double **ou
 
     *out_k = k;
     if (!isnan(k[0])) return STATUS_OK;
+    TRY(interrupt_check());
     TRY(facet_course_at(d->course, d->midnight_s + fmin(step * STEP_S, DAY_S - 1.0), d->facet_k));
     for (size_t i = 0; i < columns; i++) k[i] = mean_of(d->s, v->table.name[i], d->facet_k);
 out:

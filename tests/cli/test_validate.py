@@ -86,6 +86,15 @@ def test_a_broken_table_is_refused_at_its_line(program, tmp_path, header, row, m
     assert done.returncode == 1 and message in done.stderr
 
 
+@pytest.mark.parametrize("name, text", [("year.epw", "LOCATION,a\n"), ("day.dat", " Bondville\n"), ("day.wth", "2 1\n"),
+                                        ("day.csv", "timestamp,temp_air\n2023-06-01T00:00Z,20\n")])
+def test_weather_with_dates_is_a_scene_s(program, tmp_path, name, text):
+    (tmp_path / name).write_text(text)
+    done = program.run("validate", "thermal", tmp_path / name, *(f"--{k}={v}" for k, v in {**ARM, **GRASS}.items()))
+
+    assert done.returncode == 1 and f"{name}: expected a .csv with hours; other weather is a scene's" in done.stderr
+
+
 @pytest.mark.parametrize("change, message", [
     ({"back": "snow"}, "--back: found 'snow'"), ({"site": None}, "needs --site"),
     ({"surface-resistance-s-m": "50"}, "expected DAY,NIGHT"),
