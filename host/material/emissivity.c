@@ -2,6 +2,7 @@
 
 #include "material/emissivity_law.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,6 +54,13 @@ status emissivity_read(emissivity **out, const char *path)
     e->grid = wavenumber_rows_grid();
     TRY(record_file_open(&file, path));
     TRY(record_file_header(file, NULL));
+    const char *line = record_file_peek(file);
+    if (line && isalpha((unsigned char)*line)) {
+        TRY(record_file_text(file, &line, "an angle"));
+        rc = record_file_reject(file, "an angle in degrees, as an .ems has it: measured spectra are "
+                                      "read by spectrum_file");
+        goto out;
+    }
     for (int angle = 0; angle < EMISSIVITY_ANGLES; angle++)
         TRY(read_angle(e, file, angle, &cut_count));
     TRY(record_file_finish(file));

@@ -245,6 +245,8 @@ def test_reflectance_between_two_directions_is_refused_where_heat_is_emitted(che
     ({"emissivity": .9, "outside": "hold"}, "without spectrum_file"),
     ({"spectrum_file": []}, "expected 1 to 16"),
     ({"spectrum_file": "t.csv"}, "found transmittance"),
+    ({"emissivity_file": "s.csv"}, "s.csv:1: found 'wavelength_um,reflectance', expected an angle in degrees, as an "
+                                   ".ems has it: measured spectra are read by spectrum_file"),
 ])
 def test_wrong_keys_are_refused_with_file_and_line(check, keys, expected):
     done = check({"s.csv": TABLE, "t.csv": TABLE.replace("reflectance", "transmittance")}, **keys)
