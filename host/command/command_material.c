@@ -95,7 +95,8 @@ static int list(int argc, char **argv)
     const int code = option_table_read(&table, argc, argv, &count);
 
     if (code != OPTION_TABLE_DONE) return code;
-    const status rc = scene_read_libraries(&s, (const char *const *)argv + 1, (size_t)count, NULL);
+    const status rc = scene_read_libraries(&s, (const char *const *)argv + 1, (size_t)count, NULL,
+                                           SCENE_THERMAL_FIXED);
     for (uint32_t i = 0; rc == STATUS_OK && i < s->material_count; i++) {
         const scene_material *m = &s->materials[i];
         printf("%5u %-24s solar %.3f thermal %.3f %s\n", m->record.number,
@@ -124,7 +125,8 @@ static int show(int argc, char **argv)
     const int code = option_table_read(&table, argc, argv, &count);
 
     if (code != OPTION_TABLE_DONE) return code;
-    status rc = scene_read_libraries(&s, (const char *const *)argv + 2, (size_t)count - 1, argv[1]);
+    status rc = scene_read_libraries(&s, (const char *const *)argv + 2, (size_t)count - 1, argv[1],
+                                     SCENE_THERMAL_FIXED);
     if (rc == STATUS_OK) rc = material_plot_write(&s->materials[0], plot, angle_plot);
     if (rc == STATUS_OK) print_material(&s->materials[0]);
     scene_free(s);

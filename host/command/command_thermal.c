@@ -1,9 +1,11 @@
 #include "command/command.h"
 #include "command/command_sensitivity.h"
 #include "command/command_value.h"
+#include "files/file_name.h"
 #include "image/curve.h"
 #include "image/picture.h"
 #include "kernels/constants.h"
+#include "scene/scene.h"
 #include "station/weather_history.h"
 #include "thermal/thermal.h"
 #include "weather/weather_place.h"
@@ -62,8 +64,8 @@ static int read_arguments(int argc, char **argv, thermal_request *out)
 {
     static const char *const models[] = {"therm", "layered"};
     option list[] = {
-        {"materials", 0, "FILE", "the list of materials", .text = &out->materials,
-         .is_required = true},
+        {"materials", 0, "FILE", "the materials: a .mat, or without --sensitivity a .toml library",
+         .text = &out->materials, .is_required = true},
         {"weather", 0, "FILE", "the history", .text = &out->weather, .is_required = true},
         command_site_option(&out->day.place),
         command_date_option(&out->day),
@@ -164,23 +166,58 @@ out:
     return rc;
 }
 
-static status run(const thermal_request *request)
+/* What a material has for heat: of a .mat its record, of a .toml layers and power by the clock too. */
+typedef struct heat_matter {
+    material_record record;
+    layered_matter layered;
+    heat_schedule power;
+} heat_matter;
+
+static status read_mat(heat_matter *out, const thermal_request *request)
 {
     status rc = STATUS_OK;
     material_library *library = NULL;
-    weather *w = NULL;
-    float *temperature_k = NULL;
-    const facet_record facet = facet_of(request);
-    const layered_matter layered = layered_matter_default();
-    material_record record;
-    const thermal_matter matter = {&record, request->model == MODEL_LAYERED ? &layered : NULL, NULL,
-                                   1, command_laws_of(&request->laws)};
 
-    if (request->plot) TRY(picture_prepare());
     TRY(material_library_read(&library, request->materials));
     const material *named = material_by_name(library, request->material);
     if (!named) TRY(command_refuse_material(library, request->materials, request->material));
-    record = command_material_record(named);
+    *out = (heat_matter){.record = command_material_record(named),
+                         .layered = layered_matter_default()};
+out:
+    material_library_free(library);
+    return rc;
+}
+
+static status read_toml(heat_matter *out, const thermal_request *request)
+{
+    status rc = STATUS_OK;
+    scene *s = NULL;
+
+    TRY(scene_read_libraries(&s, &request->materials, 1, request->material,
+                             request->model == MODEL_LAYERED ? SCENE_THERMAL_LAYERED
+                                                             : SCENE_THERMAL_THERM));
+    NEED(s->materials[0].medium == RECORD_NONE, STATUS_ARGUMENT,
+         "%s: material '%s' is transmissive", request->materials, request->material);
+    *out = (heat_matter){s->materials[0].record, s->materials[0].layered, s->materials[0].power};
+out:
+    scene_free(s);
+    return rc;
+}
+
+static status run(const thermal_request *request)
+{
+    status rc = STATUS_OK;
+    weather *w = NULL;
+    float *temperature_k = NULL;
+    const facet_record facet = facet_of(request);
+    heat_matter own;
+    const thermal_matter matter = {&own.record,
+                                   request->model == MODEL_LAYERED ? &own.layered : NULL,
+                                   &own.power, 1, command_laws_of(&request->laws)};
+
+    if (request->plot) TRY(picture_prepare());
+    TRY(file_name_ends(request->materials, ".toml") ? read_toml(&own, request)
+                                                    : read_mat(&own, request));
     TRY(weather_history_read(&w, request->weather, &request->place));
     weather_place_check_day(w, &request->place, request->weather);
     forcing_check(w, &matter.laws, request->weather);
@@ -195,7 +232,6 @@ static status run(const thermal_request *request)
 out:
     free(temperature_k);
     weather_free(w);
-    material_library_free(library);
     return rc;
 }
 

@@ -57,8 +57,9 @@ status emissivity_read(emissivity **out, const char *path)
     const char *line = record_file_peek(file);
     if (line && isalpha((unsigned char)*line)) {
         TRY(record_file_text(file, &line, "an angle"));
-        rc = record_file_reject(file, "an angle in degrees, as an .ems has it: measured spectra are "
-                                      "read by spectrum_file");
+        rc =
+            record_file_reject(file, "an angle in degrees, as an .ems has it: measured spectra are "
+                                     "read by spectrum_file");
         goto out;
     }
     for (int angle = 0; angle < EMISSIVITY_ANGLES; angle++)

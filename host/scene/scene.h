@@ -108,9 +108,11 @@ status scene_read(scene **out, const char *path, const char *const *setting, siz
 void scene_free(scene *s);
 
 /* Reads materials of libraries (.mat, .toml) as a scene of nothing else.
- *   name   of the only one that is kept; NULL: all
+ *   name      of the only one that is kept; NULL: all
+ *   thermal   what they must have the heat for
  * Fails as scene_read does, and where no material has that name. */
-status scene_read_libraries(scene **out, const char *const *path, size_t count, const char *name);
+status scene_read_libraries(scene **out, const char *const *path, size_t count, const char *name,
+                            scene_thermal thermal);
 
 /* Drops all bands but those named in a list with commas between. Fails with STATUS_ARGUMENT if there
  * is no band of a name. */

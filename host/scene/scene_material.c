@@ -410,7 +410,8 @@ static void use_library(const material_sources *from, const char *name)
     }
 }
 
-status scene_read_libraries(scene **out, const char *const *path, size_t count, const char *name)
+status scene_read_libraries(scene **out, const char *const *path, size_t count, const char *name,
+                            scene_thermal thermal)
 {
     status rc = STATUS_OK;
     scene_reader reader = {.s = calloc(1, sizeof(scene))};
@@ -418,6 +419,7 @@ status scene_read_libraries(scene **out, const char *const *path, size_t count, 
     material_sources from = {.reader = &reader, .aliases = &aliases};
 
     NEED(reader.s, STATUS_MEMORY, "no memory for materials");
+    reader.s->thermal = thermal;
     reader.s->path = strdup(path[0]);
     reader.s->folder = strdup("");
     NEED(reader.s->path && reader.s->folder, STATUS_MEMORY, "no memory for materials");

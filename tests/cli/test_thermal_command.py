@@ -259,3 +259,44 @@ def test_a_plot_that_cannot_be_written_is_an_error(materials, tmp_path):
     done = of_row(materials, "Asphalt", plot=tmp_path / "absent" / "asphalt.png")
 
     assert done.returncode == 1 and "asphalt.png" in done.stderr
+
+
+def test_a_toml_library_gives_the_temperatures_of_the_same_mat(tmp_path):
+    mat, toml = tmp_path / "grass.mat", tmp_path / "grass.toml"
+    mat.write_text("1\ngrass\n1\n.30\n2.5\n.60\n0.0\n.80\n.95\n.16\nnull\nnull\n")
+    toml.write_text('[[material]]\nname = "grass"\nemissivity = 0.95\nsolar_absorptance = 0.8\n'
+                    f"specific_heat_j_kg_k = {.30 * 4184!r}\nconductivity_w_m_k = {2.5 * 418.4 / 3600!r}\n"
+                    "density_kg_m3 = 600\nexposed_area = 0.16\n")
+
+    runs = [thermal(**PLACE, materials=library, material="grass", weather=HISTORY, thickness_cm=2.0)
+            for library in (mat, toml)]
+
+    assert runs[0].stdout == runs[1].stdout and len(runs[0].stdout) > 1000
+
+
+def test_the_absorptance_of_a_spectrum_is_what_warms(tmp_path):
+    """A curve of 0.3 in sunlight and 0.9 beyond 3 um, and the numbers that it comes to."""
+    heat = "specific_heat_j_kg_k = 900\nconductivity_w_m_k = 1\ndensity_kg_m3 = 2000\nexposed_area = 0.5\n"
+    (tmp_path / "s.csv").write_text("wavelength_um,emissivity\n0.28,0.3\n4,0.3\n4.001,0.9\n14,0.9\n")
+    library = tmp_path / "a.toml"
+    library.write_text(f'[[material]]\nname = "curve"\nspectrum_file = "s.csv"\n{heat}'
+                       f'[[material]]\nname = "numbers"\nemissivity = 0.9\nsolar_absorptance = 0.3\n{heat}')
+
+    def course(name):
+        done = thermal(**PLACE, materials=library, material=name, weather=HISTORY, thickness_cm=5.0)
+        return [float(line.split(",")[1]) for line in done.stdout.splitlines()[1:]]
+
+    first, second = course("curve"), course("numbers")
+
+    assert len(first) > 100
+    # below 4 um a body of 300 K emits 0.2 %: the emissivity is lower by 0.0012
+    assert first == pytest.approx(second, abs=.05)
+
+
+def test_a_toml_material_without_heat_is_refused(tmp_path):
+    library = tmp_path / "a.toml"
+    library.write_text('[[material]]\nname = "a"\nemissivity = 0.9\n')
+
+    done = thermal(**PLACE, materials=library, material="a", weather=HISTORY, thickness_cm=5.0)
+
+    assert done.returncode == 1 and 'material a: thermal = "therm" needs density_kg_m3' in done.stderr
