@@ -89,11 +89,10 @@ static void print_spectrum(const scene *s, const scene_material *m)
     const double share = 100.0;
 
     printf("spectrum        %s\n", m->spectrum);
-    printf("spectrum        sunlight absorbed %.3f (measured %.0f %%), emitted at 300 K %.3f "
-           "(measured "
-           "%.0f %%)\n",
-           m->sun.value, share * m->sun.measured_share, m->body.value,
-           share * m->body.measured_share);
+    printf("spectrum        sunlight absorbed %.3f (%.0f %% of it measured, %.0f %% unknown), "
+           "emitted at 300 K %.3f (%.0f %%, %.0f %%)\n",
+           m->sun.value, share * m->sun.measured_share, share * m->sun.missing_share, m->body.value,
+           share * m->body.measured_share, share * m->body.missing_share);
     for (uint32_t i = 0; i < s->band_count && i < BANDS_SHOWN; i++) {
         const band *b = &s->bands[i];
         if (b->sensor) continue;

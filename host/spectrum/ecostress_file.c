@@ -3,6 +3,7 @@
 #include "spectrum/spectral_series.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -96,27 +97,53 @@ out:
     return rc;
 }
 
+/* Takes one line of the table: a wavelength without a value is a deleted channel; lines of wavelength 0, which fill some
+ * files up, are passed over. */
+static status take_point(spectral_series *s, const char *line, const record_file *file)
+{
+    double pair[2];
+    const int count = record_numbers(line, 2, pair);
+
+    if (count != 1 && count != 2) return record_file_reject(file, "a wavelength and a value");
+    if (pair[0] == 0.0) return STATUS_OK;
+    const double value = count == 2 ? pair[1] : -HUGE_VAL;
+    return spectral_series_add(s, (spectral_point){pair[0], value, 0.0, record_file_line(file)});
+}
+
+/* Takes all points, of which the header has passed the first.
+ *   out_count   of lines */
+static status read_points(spectral_series *s, const ecostress_header *h, record_file *file,
+                          size_t *out_count)
+{
+    status rc = STATUS_OK;
+    const char *line;
+
+    *out_count = 1;
+    TRY(spectral_series_add(
+        s, (spectral_point){h->first[0], h->first[1], 0.0, record_file_line(file)}));
+    for (; !record_file_at_end(file); (*out_count)++) {
+        TRY(record_file_text(file, &line, "a wavelength and a value"));
+        TRY(take_point(s, line, file));
+    }
+out:
+    return rc;
+}
+
 status ecostress_file_read(spectral_curve **out, record_file *file, const char *path)
 {
     status rc = STATUS_OK;
     ecostress_header h = {0};
     spectral_series s = {.path = path, .is_sampled = true};
-    double pair[2];
+    size_t count;
 
     TRY(read_header(&h, file));
     s.unit = h.unit;
     s.scale = h.scale;
     s.quantity = h.quantity;
-    memcpy(pair, h.first, sizeof pair);
-    for (;;) {
-        TRY(spectral_series_add(&s,
-                                (spectral_point){pair[0], pair[1], 0.0, record_file_line(file)}));
-        if (record_file_at_end(file)) break;
-        TRY(record_file_numbers(file, 2, pair, "a wavelength and a value"));
-    }
-    if (h.stated_count > 0 && s.count != (size_t)h.stated_count) {
+    TRY(read_points(&s, &h, file, &count));
+    if (h.stated_count > 0 && count != (size_t)h.stated_count) {
         rc = record_file_reject(file, "%ld points, as the header states, not %zu", h.stated_count,
-                                s.count);
+                                count);
         goto out;
     }
     TRY(spectral_series_finish(out, &s));

@@ -293,3 +293,25 @@ def test_measured_angles_are_straight_between(program, radiance, tmp_path):
 
     black = radiance.band_planck(8.0, 14.0, 300.0)
     assert got.planes["radiance_lwir"][3, 4] / black == pytest.approx(.75, abs=2e-4)
+
+
+def test_a_file_means_the_same_to_python3_spectral(check, tmp_path):
+    import spectral.database.ecostress
+
+    um, e = CURVES["quartz sand"]
+    text = ecostress(um, e)
+    header, rows = text.split("\n\n")
+    # that reader wants the keys of an ECOSTRESS header and its 20 lines
+    keys = {"Type": "soil", "Class": "a", "Subclass": "b", "Particle Size": "Coarse", "Sample No.": "1", "Owner": "o",
+            "Wavelength Range": "All", "Origin": "here", "Collection Date": "N/A", "Description": "a curve"}
+    lines = ["Name: a", *(f"{k}: {v}" for k, v in keys.items()),
+             *header.splitlines()[header.splitlines().index(next(x for x in header.splitlines() if x.startswith("Measurement"))):]]
+    (tmp_path / "s.txt").write_text("\n".join(lines) + "\n\n" + rows)
+    signature = spectral.database.ecostress.read_ecostress_file(str(tmp_path / "s.txt"))
+
+    done = check({}, spectrum_file="s.txt", band={"name": "b", "wavelength_um": [8.0, 9.5]})
+
+    assert done.returncode == 0, done.stderr
+    x, y = np.array(signature.x), 1 - np.array(signature.y) / 100
+    edges = splits(8.0, 9.5, x)
+    assert means(done) == [pytest.approx(np.trapz(np.interp(edges, x, y), edges) / 1.5, abs=6e-5)]

@@ -46,6 +46,18 @@ static void ecostress_turns_round_and_leaves_percent(void **state)
     spectral_curve_free(c);
 }
 
+static void a_wavelength_without_a_value_is_a_gap_and_0_none(void **state)
+{
+    (void)state;
+    spectral_curve *c = read_text(
+        "Name: x\nX Units: Wavelength (micrometer)\nY Units: Emissivity\nNumber of X Values: "
+        "6\n\n0.4\t0.9\n0.5\t0.9\n0.55\n0.6\t0.8\n0.7\t0.8\n0.0\t0.0\n");
+
+    assert_int_equal(c->grid.count, 4);
+    assert_int_equal(c->grid.link[1], WAVELENGTH_LINK_GAP);
+    spectral_curve_free(c);
+}
+
 static void a_header_that_says_bidirectional_is_heard(void **state)
 {
     spectral_curve *c = NULL;
@@ -196,7 +208,7 @@ static void a_wrong_file_is_refused_at_its_line(void **state)
         {ecostress, "(micrometers)", "", 9, "Wavelength (micrometers)"},
         {ecostress, "Reflectance (percent)", "Radiance", 10, "Reflectance (percent)"},
         {ecostress, "Values: 4", "Values: 5", 19, "5 points, as the header states, not 4"},
-        {ecostress, "10.0 \t5.0", "10.0", 17, "a wavelength and a value"},
+        {ecostress, "10.0 \t5.0", "10.0 5 6", 17, "a wavelength and a value"},
     };
 
     (void)state;
@@ -212,6 +224,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ecostress_turns_round_and_leaves_percent),
+        cmocka_unit_test(a_wavelength_without_a_value_is_a_gap_and_0_none),
         cmocka_unit_test(a_header_that_says_bidirectional_is_heard),
         cmocka_unit_test(tables_are_read_in_every_unit),
         cmocka_unit_test(a_table_is_straight_in_what_its_file_counts_in),
