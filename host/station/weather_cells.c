@@ -10,8 +10,9 @@
 #define DAY_S 86400.0
 #define MARGIN_S (2.0 * HOUR_S)
 #define SEA_LEVEL_PA 101325.0
-#define WET_K 1.0           /* of noise of dew points in saturated air */
-#define DRIEST 0.01         /* relative humidity over two days */
+#define WET_K 1.0   /* of noise of dew points in saturated air */
+#define DRIEST 0.01 /* relative humidity over two days */
+#define ODD_DIFFERENCE 0.3
 #define MOST_DIFFERENCE 0.1 /* of the global irradiance */
 
 static double pressure_at(double elevation_m)
@@ -197,9 +198,9 @@ static void bridge(weather_cells *cells, const site *place, int quantity)
     }
 }
 
-/* Whether the global irradiance is that of direct and diffuse light, in the mean of where all three are
- * known. */
-static bool has_fitting_global(const weather_cells *cells, const site *place)
+/* How far the global irradiance is from that of direct and diffuse light, of its own, in the mean of where all
+ * three are known; 0 where they never are. */
+static double misfit_of_global(const weather_cells *cells, const site *place)
 {
     double sum = 0.0, difference = 0.0;
 
@@ -213,7 +214,7 @@ static bool has_fitting_global(const weather_cells *cells, const site *place)
         sum += global;
         difference += fabs(global - others);
     }
-    return difference <= MOST_DIFFERENCE * sum;
+    return sum > 0.0 ? difference / sum : 0.0;
 }
 
 static bool lacks_light(const weather_cells *cells)
@@ -225,10 +226,18 @@ static bool lacks_light(const weather_cells *cells)
     return false;
 }
 
-static void fill_light(weather_cells *cells, const site *place, double first_s, derived *count)
+static void fill_light(weather_cells *cells, const weather_series *series, const site *place,
+                       double first_s, derived *count)
 {
+    const double misfit = misfit_of_global(cells, place);
+
+    if (misfit > ODD_DIFFERENCE)
+        status_warn(
+            "%s: its global irradiance differs from its direct and diffuse light by %.2g %% in "
+            "the mean: are all three in the units that it states?",
+            series->path, 100.0 * misfit);
     if (!lacks_light(cells)) return;
-    if (!has_fitting_global(cells, place)) {
+    if (misfit > MOST_DIFFERENCE) {
         bridge(cells, place, WEATHER_SERIES_DIRECT_W_M2);
         bridge(cells, place, WEATHER_SERIES_DIFFUSE_W_M2);
     }
@@ -280,7 +289,7 @@ status weather_cells_make(weather_cells *out, const weather_series *series, cons
     take_samples(out, series);
     fill_outside(out, series, first_s);
     TRY(fill_humidity(out, series, first_s, &count));
-    fill_light(out, place, first_s, &count);
+    fill_light(out, series, place, first_s, &count);
     for (int q = 0; q < WEATHER_SERIES_COUNT; q++) bridge(out, place, q);
     for (size_t i = 0; i < out->count; i++) {
         double *pressure_pa = &out->cell[i].value[WEATHER_SERIES_PRESSURE_PA];

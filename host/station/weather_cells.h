@@ -20,7 +20,7 @@ typedef struct weather_cells {
  *   humidity             dew point from relative humidity; refused where that is 1 % at most: fractions
  *   light                direct and diffuse from each other and the global irradiance
  *                        (light_split.h); behind the gaps where global differs from them by more
- *                        than a tenth in the mean; none while the sun is down
+ *                        than a tenth in the mean, warned beyond 0.3; none while the sun is down
  *   gaps                 up to an hour is bridged: linear; light by its share of the clear sky's
  *   pressure             that of the standard atmosphere (ISO 2533) at the series' elevation
  * and warns of what it derived. What is missing still is not-a-number. The caller releases *out with

@@ -67,6 +67,14 @@ def test_flags_of_tmy3_are_gaps_and_rain_is_that_of_its_hours(program, tmp_path)
     assert rows[96:, RAIN] == pytest.approx(0.2) and "out of range" not in errors  # cm/h
 
 
+def test_light_of_which_one_part_is_in_another_unit_is_told(program, tmp_path):
+    _, plain = read(program, tmp_path, tmy3_text())
+    _, errors = read(program, tmp_path, tmy3_text().replace("DNI (W/m^2)", "DNI (kJ/m^2)"))
+
+    assert "year.csv: its global irradiance differs from its direct and diffuse light by" in errors
+    assert "differs" not in plain
+
+
 def test_months_of_tmy3_may_be_of_several_years(program, tmp_path):
     rows, errors = read(program, tmp_path, tmy3_text(years={21: 1988, 22: 1988, 23: 1975, 24: 1975}),
                         time="2024-06-23T15:00:00-04:00")
