@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "sky/card_deck.h"
 
+#include <ctype.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -42,11 +43,18 @@ out:
     return rc;
 }
 
+/* Cards that LOWTRAN reads as they stand: for it a comma ends a field, so that 0,350 would be 0. */
 static status take_several(taker *t, int count, const char *expected)
 {
     status rc = STATUS_OK;
 
-    for (int i = 0; i < count; i++) TRY(take(t, expected));
+    for (int i = 0; i < count; i++) {
+        TRY(take(t, expected));
+        for (const char *c = strchr(t->line, ','); c; c = strchr(c + 1, ','))
+            if (c > t->line && isdigit((unsigned char)c[-1]) && isdigit((unsigned char)c[1]))
+                TRY(record_file_reject(t->file, "%s, decimal points in them, not commas",
+                                       expected));
+    }
 out:
     return rc;
 }

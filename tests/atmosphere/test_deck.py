@@ -76,6 +76,32 @@ def test_a_broken_deck_is_explained(atmosphere, tmp_path, old, new, expected):
     assert not (tmp_path / "out.rad").exists()
 
 
+def test_a_decimal_comma_in_a_profile_is_refused(atmosphere, tmp_path):
+    (tmp_path / "sounding.csv").write_text("pressure_hpa,altitude_m,temperature_c\n1000,100,20\n800,2000,10\n500,5700,-15\n")
+    (tmp_path / "scene.toml").write_text("""name = "s"
+[site]
+latitude_deg = 40
+longitude_deg = -80
+time = 1992-06-21T12:00:00Z
+[atmosphere.generate]
+model = "midlatitude-summer"
+radiosonde = "sounding.csv"
+ground_altitude_m = 100
+sensor_altitude_m = 5000
+wavenumber_cm1 = [800, 1000]
+wavenumber_step_cm1 = 100
+sample_step_cm1 = 100
+sky_step_deg = { zenith = 45, azimuth = 180 }
+path_zenith_deg = [0, 0, 1]
+""")
+    atmosphere("make", tmp_path / "scene.toml", "-o", tmp_path / "o.rad", "--keep-decks", tmp_path / "decks")
+    deck = (tmp_path / "decks/sun.cdk").read_text()
+    (tmp_path / "comma.cdk").write_text(deck.replace("   800.000", "   800,000", 1))
+    done = atmosphere("deck", tmp_path / "comma.cdk", "-o", tmp_path / "out.txt", code=1)
+
+    assert "comma.cdk:5: found" in done.stderr and "cards 2C1 to 2C3 of each level, decimal points in them, not commas" in done.stderr
+
+
 def test_a_deck_that_ends_early_is_explained(atmosphere, tmp_path):
     path = tmp_path / "0.cdk"
     path.write_text("\n".join(UNPRINTED.splitlines()[:4]))
