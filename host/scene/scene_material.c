@@ -223,7 +223,12 @@ static uint32_t add_material(const material_sources *from, const char *name,
     m->record = make_record(from, entry ? entry->known : NULL, stated);
     read_extinction(from, m, entry, stated);
     m->record.emissivity_angles = 1;
-    if (m->medium == RECORD_NONE) read_emissivity(from, m, entry, stated);
+    if (m->medium == RECORD_NONE)
+        read_emissivity(from, m, entry, stated);
+    else if (stated && stated->spectrum.node)
+        scene_fail(from->reader, stated->spectrum.node,
+                   "material %s: states spectrum_file and is transmissive, expected one of them",
+                   m->name);
     m->layered = stated ? stated->layered : layered_matter_default();
     if (stated) {
         m->thickness_m = isnan(stated->thickness_cm) ? 0.0 : .01 * stated->thickness_cm;

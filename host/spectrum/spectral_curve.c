@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define SEAM                                                                                       \
+    1e-9 /* of a wavelength, between the last point of one curve and the first of the next */
+
 void spectral_curve_free(spectral_curve *s)
 {
     if (!s) return;
@@ -81,22 +84,48 @@ static int ascending(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
-/* Returns how many points there are. */
+/* Widens the range where both have values. */
+static void overlap(double range_um[2], double um)
+{
+    range_um[0] = fmin(um, range_um[0]);
+    range_um[1] = fmax(um, range_um[1]);
+}
+
+/* Adds the other curve's value beside an end of the first one's ranges, if it has one there. */
+static size_t add_seam(joined_point *out, const spectral_curve *other, double end_um, double um,
+                       double overlap_um[2])
+{
+    if (!wavelength_grid_measures(&other->grid, um)) return 0;
+    const wavelength_place at = wavelength_grid_find(&other->grid, 1e4 / um);
+    *out = (joined_point){um, wavelength_grid_value(&other->grid, other->value, 1e4 / um), 0.0,
+                          other->grid.link[at.low], true};
+    if (other->absorption)
+        out->absorption = wavelength_grid_value(&other->grid, other->absorption, 1e4 / um);
+    overlap(overlap_um, end_um);
+    return 1;
+}
+
+/* Returns how many points there are: at most two more a point of the first than both have. */
 static size_t collect(joined_point *out, const spectral_curve *s, const spectral_curve *other,
                       double overlap_um[2])
 {
     size_t n = 0;
 
     overlap_um[0] = overlap_um[1] = NAN;
-    for (size_t i = 0; i < s->grid.count; i++) out[n++] = point_of(s, i, false);
+    for (size_t i = 0; i < s->grid.count; i++) {
+        const double um = s->grid.wavelength_um[i];
+        out[n++] = point_of(s, i, false);
+        if (i == 0 || s->grid.link[i - 1] == WAVELENGTH_LINK_GAP)
+            n += add_seam(out + n, other, um, um * (1.0 - SEAM), overlap_um);
+        if (i + 1 == s->grid.count || s->grid.link[i] == WAVELENGTH_LINK_GAP)
+            n += add_seam(out + n, other, um, um * (1.0 + SEAM), overlap_um);
+    }
     for (size_t i = 0; i < other->grid.count; i++) {
         const double um = other->grid.wavelength_um[i];
-        if (!wavelength_grid_measures(&s->grid, um)) {
+        if (wavelength_grid_measures(&s->grid, um))
+            overlap(overlap_um, um);
+        else
             out[n++] = point_of(other, i, true);
-            continue;
-        }
-        overlap_um[0] = fmin(um, overlap_um[0]);
-        overlap_um[1] = fmax(um, overlap_um[1]);
     }
     qsort(out, n, sizeof *out, ascending);
     return n;
@@ -119,7 +148,7 @@ status spectral_curve_join(spectral_curve *s, const spectral_curve *other, doubl
 {
     status rc = STATUS_OK;
     spectral_curve *made = calloc(1, sizeof *made);
-    joined_point *point = malloc((s->grid.count + other->grid.count) * sizeof *point);
+    joined_point *point = malloc((3 * s->grid.count + other->grid.count) * sizeof *point);
 
     NEED(made && point, STATUS_MEMORY, "no memory to join spectra");
     const size_t count = collect(point, s, other, out_overlap_um);

@@ -189,8 +189,8 @@ def test_joined_files_cover_both_ranges_and_tell_their_overlap(check):
                  band={"name": "b", "wavelength_um": [4.0, 14.0]})
 
     assert done.returncode == 0, done.stderr
-    assert "more.csv: from 8 to 8 um the files before it have values too" in done.stderr
-    assert "4 to 7, 7.5 to 14 um" in done.stdout
+    assert "more.csv: from 7.5 to 8 um the files before it have values too" in done.stderr
+    assert "4 to 7.5, 7.5 to 14 um" in done.stdout
 
 
 SPLIB = "splib07a Record=1: Quartz GDS31 BECKb AREF\n 0.1\n-1.23e34\n 0.1\n 0.2\n"
@@ -245,6 +245,7 @@ def test_reflectance_between_two_directions_is_refused_where_heat_is_emitted(che
     ({"emissivity": .9, "outside": "hold"}, "without spectrum_file"),
     ({"spectrum_file": []}, "expected 1 to 16"),
     ({"spectrum_file": "t.csv"}, "found transmittance"),
+    ({"spectrum_file": "s.csv", "extinction_per_km": 1.0}, "states spectrum_file and is transmissive"),
     ({"emissivity_file": "s.csv"}, "s.csv:1: found 'wavelength_um,reflectance', expected an angle in degrees, as an "
                                    ".ems has it: measured spectra are read by spectrum_file"),
 ])

@@ -147,10 +147,31 @@ static void joined_files_keep_the_first_where_they_overlap(void **state)
     spectral_curve *other = read_text("wavelength_um,emissivity\n2.5,.9\n3,.9\n4,.9\n5,.8\n");
 
     assert_int_equal(spectral_curve_join(c, other, overlap), STATUS_OK);
-    assert_int_equal(c->grid.count, 5);
+    assert_int_equal(c->grid.count, 6); /* and where the other goes on, beside 3 um */
     assert_near(c->value[2], .3, 0.0);
     assert_near(c->value[3], .9, 0.0);
+    assert_near(c->grid.wavelength_um[3], 3.0, 1e-8);
+    assert_near(wavelength_grid_value(&c->grid, c->value, 1e4 / 2.9), .29, 1e-9);
+    assert_near(wavelength_grid_value(&c->grid, c->value, 1e4 / 3.5), .9, 1e-9);
     assert_near(overlap[0], 2.5, 0.0);
+    assert_near(overlap[1], 3.0, 0.0);
+    spectral_curve_free(other);
+    spectral_curve_free(c);
+}
+
+/* A table of few points that overlaps with its first alone is known from the seam on. */
+static void a_joined_table_is_known_from_the_seam_on(void **state)
+{
+    double overlap[2];
+
+    (void)state;
+    spectral_curve *c = read_text("wavelength_um,emissivity\n1,.1\n2,.2\n3,.3\n");
+    spectral_curve *other = read_text("wavelength_um,emissivity\n2,.2\n10,1\n14,1\n");
+
+    assert_int_equal(spectral_curve_join(c, other, overlap), STATUS_OK);
+    assert_near(wavelength_grid_value(&c->grid, c->value, 1e4 / 6.0), .6, 1e-9);
+    assert_true(isnan(wavelength_grid_uncovered(&c->grid, 1.0, 14.0)));
+    assert_near(overlap[0], 2.0, 0.0);
     assert_near(overlap[1], 3.0, 0.0);
     spectral_curve_free(other);
     spectral_curve_free(c);
@@ -231,6 +252,7 @@ int main(void)
         cmocka_unit_test(deleted_channels_are_gaps),
         cmocka_unit_test(an_end_at_14_um_holds_on),
         cmocka_unit_test(joined_files_keep_the_first_where_they_overlap),
+        cmocka_unit_test(a_joined_table_is_known_from_the_seam_on),
         cmocka_unit_test(optical_constants_are_read),
         cmocka_unit_test(a_field_spectrometers_file_is_read),
         cmocka_unit_test(a_wrong_file_is_refused_at_its_line),
