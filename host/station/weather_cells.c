@@ -10,8 +10,7 @@
 #define DAY_S 86400.0
 #define MARGIN_S (2.0 * HOUR_S)
 #define SEA_LEVEL_PA 101325.0
-#define WET_K 1.0   /* of noise of dew points in saturated air */
-#define DRIEST 0.01 /* relative humidity over two days */
+#define WET_K 1.0 /* of noise of dew points in saturated air */
 #define ODD_DIFFERENCE 0.3
 #define MOST_DIFFERENCE 0.1 /* of the global irradiance */
 
@@ -117,7 +116,7 @@ static status fill_humidity(weather_cells *cells, const weather_series *series, 
         count->dew_point += was_set;
         count->wet += v[WEATHER_SERIES_DEW_POINT_K] > v[WEATHER_SERIES_AIR_K] + WET_K;
     }
-    NEED(count->dew_point == 0 || most > DRIEST, STATUS_FORMAT,
+    NEED(count->dew_point == 0 || most > WEATHER_DRIEST, STATUS_FORMAT,
          "%s: its relative humidity is at most %.3g %%: expected per cent, not fractions",
          series->path, 100.0 * most);
 out:

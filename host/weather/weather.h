@@ -63,6 +63,9 @@ double weather_saturation_pa(double temperature_k);
 /* Kilograms of water vapour in a kilogram of air. */
 double weather_specific_humidity(const weather_record *r);
 
+/* Relative humidity that no weather is below all day: what is at most so was meant as a fraction. */
+#define WEATHER_DRIEST 0.01
+
 /* Dew point from relative humidity (at least 0.0001), the inverse of the same. */
 double weather_dew_point_k(double air_temperature_k, double relative_humidity);
 

@@ -261,13 +261,23 @@ out:
     return rc;
 }
 
-/* Where one of two is there, the other follows from it or is not needed. */
-static void derive(row *now)
+/* Dew points that are missing follow from the relative humidity, unless that is in fractions. */
+static status derive(reader *r)
 {
-    double *v = now->value;
+    status rc = STATUS_OK;
+    double most = NAN;
 
-    if (isnan(v[DEW_POINT]) && !isnan(v[AIR]) && !isnan(v[HUMIDITY]))
+    for (size_t i = 0; i < r->count; i++) {
+        double *v = r->row[i].value;
+        if (!isnan(v[DEW_POINT]) || isnan(v[AIR]) || isnan(v[HUMIDITY])) continue;
         v[DEW_POINT] = weather_dew_point_k(v[AIR], fmin(1.0, v[HUMIDITY]));
+        most = fmax(most, v[HUMIDITY]);
+    }
+    NEED(!(most <= WEATHER_DRIEST), STATUS_FORMAT,
+         "%s: its relative humidity is at most %.3g %%: expected per cent, not fractions", r->path,
+         100.0 * most);
+out:
+    return rc;
 }
 
 static double at_least_0(double value)
@@ -360,7 +370,7 @@ static status read_rows(reader *r)
     column_gaps_tell(&r->gaps, r->path);
     TRY(find_interval(r));
     TRY(even_out(r));
-    for (size_t i = 0; i < r->count; i++) derive(&r->row[i]);
+    TRY(derive(r));
     if (!has(r, DEW_POINT)) r->place[DEW_POINT] = column_place_at(&columns[DEW_POINT], NULL, 0);
     for (size_t k = 0; k < sizeof whole / sizeof *whole; k++) TRY(fill_gaps(r, whole[k]));
     TRY(fill_light(r));

@@ -184,3 +184,17 @@ def test_latin_1_is_shown_readably(program, tmp_path):
 
     assert "known columns, not 'H\u00f6he'" in refused(program, tmp_path,
                                                      table(rows_of(), header).encode("latin-1"))
+
+
+def test_relative_humidity_in_fractions_is_refused(program, tmp_path):
+    said = refused(program, tmp_path, table(rows_of(change={i: {"rh": "0.55"} for i in range(48)})))
+
+    assert "day.csv: its relative humidity is at most 0.55 %: expected per cent, not fractions" in said
+
+
+def test_a_row_that_is_cut_and_one_with_decimal_commas_are_refused(program, tmp_path):
+    rows = rows_of()
+    rows[5] = rows[5][:4]
+    assert "day.csv:7: " in refused(program, tmp_path, table(rows)) and "7 fields, one for each name, not 4" in refused(program, tmp_path, table(rows))
+    rows[5] = [*rows_of()[5][:1], "15,2", *rows_of()[5][2:]]
+    assert "7 fields, one for each name, not 8" in refused(program, tmp_path, table(rows))
