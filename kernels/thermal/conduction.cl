@@ -79,8 +79,9 @@ static void open_step(const patch_run *p, uint first, uint step)
     const thermal_flux back = thermal_back_flux(&body.face, &before, group->state.back_k);
     group->before = before;
     group->after = layered_load_at(w, &body, step);
-    group->elimination = layered_eliminate(&body, back.w_m2_k,
-                                           w.span.step_s / (float)thermal_sub_steps(w.span.step_s));
+    group->elimination = layered_eliminate(
+        &body, back.w_m2_k,
+        w.span.step_s / (float)thermal_sub_steps(w.span.step_s, THERMAL_SUB_STEP_S));
 }
 
 /* Goes through the step that ends at `step`; out_w_m2 as conduction.cl has it. Returns its work, as
@@ -88,7 +89,7 @@ static void open_step(const patch_run *p, uint first, uint step)
 static uint go(const patch_run *p, uint step, global float *out_w_m2)
 {
     const thermal_span span = p->world.span;
-    const int count = thermal_sub_steps(span.step_s);
+    const int count = thermal_sub_steps(span.step_s, THERMAL_SUB_STEP_S);
     uint work = 0;
 
     for (uint first = p->first; first < p->end; first += LANES_WIDTH) open_step(p, first, step);

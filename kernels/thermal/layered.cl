@@ -11,6 +11,7 @@ SHARED_BODY kernel void layered(const thermal_span span, global const layered_re
 
     const layered_world w = {.span = span,
                              .first = first,
+                             .sub_step_s = THERMAL_SUB_STEP_S,
                              .loads = TABLES_GIVEN(LOAD_TABLES),
                              .exchange = TABLES_GIVEN(EXCHANGE_TABLES)};
     const layered_body body = layered_body_of(facets, first, span.facet_count);

@@ -323,13 +323,13 @@ static inline lanes layered_lateral_gain(const layered_body *body, const layered
 }
 
 /* Goes from one record of the weather to the next. Humidity, rain and day are held like the sun.
- *   lateral_w_m2   heat along the facet in the first and in the second half */
+ *   lateral_w_m2   heat along the facet in the first and in the second half
+ *   count          of sub-steps */
 static inline void layered_advance(facet_state *state, const layered_body *body,
                                    const thermal_load *before, const thermal_load *after,
                                    layered_air air_before, layered_air air_after,
-                                   const lanes lateral_w_m2[2], float step_s)
+                                   const lanes lateral_w_m2[2], float step_s, int count)
 {
-    const int count = thermal_sub_steps(step_s);
     const thermal_flux back = thermal_back_flux(&body->face, before, state->back_k);
     const layered_elimination e = layered_eliminate(body, back.w_m2_k, step_s / (float)count);
 

@@ -23,6 +23,7 @@ TABLES_STRUCT(exchange_tables, EXCHANGE_TABLES);
 typedef struct layered_world {
     thermal_span span;
     uint first;
+    float sub_step_s; /* at most */
     load_tables loads;
     exchange_tables exchange;
 } layered_world;
@@ -81,7 +82,8 @@ static inline thermal_load layered_go(layered_world w, const layered_body *body,
                                    layered_lateral_at(w, body, 2 * step - 1)};
 
     layered_advance(state, body, &before, &after, layered_air_of(w.loads.forcing[step - 1]),
-                    layered_air_of(w.loads.forcing[step]), lateral_w_m2, w.span.step_s);
+                    layered_air_of(w.loads.forcing[step]), lateral_w_m2, w.span.step_s,
+                    thermal_sub_steps(w.span.step_s, w.sub_step_s));
     return after;
 }
 
@@ -100,6 +102,7 @@ static inline void layered_go_through_day(layered_world w, const layered_body *b
     }
 }
 
+/* The first day over and over, in steps of up to a quarter of an hour, until it ends as it began. */
 static inline facet_state layered_start(layered_world w, const layered_body *body)
 {
     const thermal_load first = layered_load_at(w, body, 0);
@@ -107,6 +110,7 @@ static inline facet_state layered_start(layered_world w, const layered_body *bod
     lanes_mask moves = state.front_k == state.front_k;
 
     if (w.span.step_count <= facet_steps_a_day(w.span)) return state;
+    w.sub_step_s = THERMAL_SETTLING_SUB_STEP_S;
     for (int i = 0; i < FACET_SETTLING_DAYS && lanes_any(moves); i++) {
         facet_state next = state;
         layered_go_through_day(w, body, &next, &mean);

@@ -91,18 +91,24 @@ static inline moisture_flux moisture_from_film(moisture_flux flux, lanes film_kg
     return flux;
 }
 
+/* Where dew and frost come or go. */
+static inline lanes_mask moisture_may_wet(moisture_air air, lanes face_k, lanes film_kg_m2)
+{
+    const lanes none = 0.0f, below_k = air.wet_below_k;
+
+    return film_kg_m2 > none || face_k < below_k;
+}
+
 /* Heat that dew and frost take from a surface that gives h to the air.
  *   convection_w_m2_k   of the exposed fraction */
 static inline moisture_flux moisture_of_dew(moisture_air air, lanes convection_w_m2_k, lanes face_k,
                                             lanes film_kg_m2, float step_s)
 {
-    const lanes none = 0.0f, below_k = air.wet_below_k;
     const lanes heat = moisture_heat(air, face_k);
     const lanes fraction = heat * convection_w_m2_k / MOISTURE_AIR_J_KG_K;
-    moisture_flux flux = {none, none};
-
-    if (!lanes_any(film_kg_m2 > none || face_k < below_k)) return flux;
     const moisture_excess over = moisture_over(air, face_k);
+    moisture_flux flux;
+
     flux.w_m2 = fraction * over.humidity;
     flux.w_m2_k = fraction * over.per_k;
     return moisture_from_film(flux, film_kg_m2, heat, step_s);

@@ -24,7 +24,9 @@
 #include "kernels/thermal/facet_state.h"
 #include "kernels/thermal/moisture.h"
 
-#define THERMAL_SUB_STEP_S 300.0f /* at most */
+/* At most, and on the way to a settled start. */
+#define THERMAL_SUB_STEP_S 300.0f
+#define THERMAL_SETTLING_SUB_STEP_S 900.0f
 #define THERMAL_GROUND_REFLECTANCE 0.15f
 
 #define THERMAL_NEVER_K 1e9f
@@ -239,8 +241,10 @@ static inline thermal_flux thermal_wet_flux(const thermal_body *body, const ther
         thermal_convection(load, body->front, body->normal[2], state->front_k);
     thermal_flux flux = thermal_front_flux(body, load, state->front_k);
 
-    *out_dew = moisture_of_dew(air, convection_w_m2_k, state->front_k, state->film_kg_m2, step_s);
-    if (air.wet_below_k > 0.0f) {
+    out_dew->w_m2 = out_dew->w_m2_k = 0.0f;
+    if (lanes_any(moisture_may_wet(air, state->front_k, state->film_kg_m2))) {
+        *out_dew =
+            moisture_of_dew(air, convection_w_m2_k, state->front_k, state->film_kg_m2, step_s);
         flux.w_m2 -= out_dew->w_m2;
         flux.w_m2_k += out_dew->w_m2_k;
     }
@@ -251,7 +255,7 @@ static inline thermal_flux thermal_wet_flux(const thermal_body *body, const ther
 static inline void thermal_step_film(facet_state *state, moisture_air air, lanes began_k,
                                      const moisture_flux *dew, lanes rise_k, float step_s)
 {
-    if (air.wet_below_k > 0.0f)
+    if (lanes_any(moisture_may_wet(air, began_k, state->film_kg_m2)))
         state->film_kg_m2 = moisture_film(air, began_k, state->film_kg_m2,
                                           dew->w_m2 + dew->w_m2_k * rise_k, step_s);
 }
@@ -435,9 +439,9 @@ static inline lanes thermal_sub_direct(const thermal_load *before, const thermal
     return 2 * i < count ? before->direct_w_m2 : after->direct_w_m2;
 }
 
-static inline int thermal_sub_steps(float step_s)
+static inline int thermal_sub_steps(float step_s, float most_s)
 {
-    return 2 * (int)ceil(0.5f * step_s / THERMAL_SUB_STEP_S);
+    return 2 * (int)ceil(0.5f * step_s / most_s);
 }
 
 /* The way from one record of the weather to the next; the air's vapour is held like the sun. */

@@ -35,7 +35,7 @@ static inline thermal_way thermal_way_of(const thermal_world *w, const thermal_b
     way.before = way.after = thermal_load_at(w, body, 0);
     way.air_before = way.air_after = moisture_air_of(w->loads.forcing[0]);
     way.step_s = w->span.step_s;
-    way.count = thermal_sub_steps(w->span.step_s);
+    way.count = thermal_sub_steps(w->span.step_s, THERMAL_SUB_STEP_S);
     return way;
 }
 
@@ -102,18 +102,21 @@ static inline lanes thermal_difference(const thermal_body *body, const facet_sta
     return body->slab != none ? facet_state_difference(a, b) : fabs(a->front_k - b->front_k);
 }
 
-/* Goes through the first day until it ends as it began; what exchanges nothing stays as it is. */
+/* Goes through the first day until it ends as it began, in steps of up to a quarter of an hour; what
+ * exchanges nothing stays as it is. */
 static inline void thermal_find_start(const thermal_world *w, const thermal_body *body,
-                                      const thermal_way *way, facet_state *state)
+                                      const thermal_way *first, facet_state *state)
 {
-    lanes_mask moves = thermal_slope(body, &way->after, state) > (lanes)0.0f;
+    lanes_mask moves = thermal_slope(body, &first->after, state) > (lanes)0.0f;
+    thermal_way way = *first;
     facet_state mean;
 
     if (w->span.step_count <= facet_steps_a_day(w->span)) return;
+    way.count = thermal_sub_steps(w->span.step_s, THERMAL_SETTLING_SUB_STEP_S);
     for (int i = 0; i < FACET_SETTLING_DAYS && lanes_any(moves); i++) {
         facet_state next = *state;
-        thermal_go_through_day(w, body, &next, *way, &mean);
-        thermal_settle(&next, body, way, state, &mean);
+        thermal_go_through_day(w, body, &next, way, &mean);
+        thermal_settle(&next, body, &way, state, &mean);
         const lanes most = thermal_difference(body, &next, state);
         facet_state_choose(state, moves, &next);
         moves = moves && most > (lanes)FACET_SETTLED_K;
