@@ -16,12 +16,14 @@ typedef float16 lanes;
 typedef int16 lanes_mask; /* of a comparison */
 typedef uint16 lanes_bits;
 #define lanes_any(mask) (lanes_bits_of(mask) != 0)
+#define as_lanes(bits) as_float16(bits)
 #define LANES_SET(vector, lane, value) (((float *)&(vector))[lane] = (value))
 #elif LANES_WIDTH == 1
 typedef float lanes;
 typedef int lanes_mask;
 typedef uint lanes_bits;
 #define lanes_any(mask) (mask)
+#define as_lanes(bits) as_float(bits)
 #define LANES_SET(vector, lane, value) ((void)(lane), (vector) = (value))
 #endif
 
@@ -63,6 +65,7 @@ static inline lanes lanes_gather(global const float *table, lanes_bits place)
 #if LANES_WIDTH == 16
 
 #define lanes_of_bits(bits) convert_float16(bits)
+#define lanes_bits_from(value) convert_uint16(value)
 
 static inline lanes lanes_read(const float *from)
 {
@@ -84,6 +87,7 @@ static inline uint lanes_bits_of(lanes_mask mask)
 #else
 
 #define lanes_of_bits(bits) ((float)(bits))
+#define lanes_bits_from(value) ((uint)(value))
 
 static inline lanes lanes_read(const float *from)
 {

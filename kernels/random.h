@@ -11,6 +11,7 @@
 /* Second words of keys whose first is a seed: what the numbers are for. Detectors take their band. */
 #define RANDOM_PIXEL 0xffff0000u
 #define RANDOM_LOBE 0xffff0001u
+#define RANDOM_HEMISPHERE 0xffff0002u
 
 /* The upper word of a product, from halves of words: OpenCL C and C11 name it differently. */
 static inline uint random_high(uint a, uint b)

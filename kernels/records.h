@@ -233,6 +233,9 @@ RECORD_SIZE(air_record, 192);
 /* Samples side by side in the rows that are taken at once. */
 #define SPECTRA_BLOCK 16u
 
+/* Facets near a point that its hemisphere counts by their form factors, at most; see near_facets.cl. */
+#define NEAR_FACETS 12u
+
 /* Knots (host/radiance/spectral_grid.h) that have one value of the light between facets. */
 #define LIGHT_BLOCK 4u
 

@@ -34,10 +34,14 @@
     AND TABLE(OPTIONAL global const float *, knot_fraction)
 
 /* Rays of points' hemispheres, and what they met.
- *   cell             shape (cell_count, 4): direction along upslope, across and normal, weight
+ *   cell             shape (sets, cell_count, 4): direction along upslope, across and normal, weight; all sets
+ *                    have the same weights
  *   hit              shape (count): the points
- *   met              shape (cell_count, count): as hemisphere.cl writes it
+ *   met              shape (cell_count, count): as hemisphere.cl writes it; behind those NEAR_FACETS rows more
+ *                    where there is `near_rays`
  *   order            shape (count): which point of what is computed each of these is; NULL: the same
+ *   near_rays        shape (NEAR_FACETS, 4, count), see near_facets.cl; NULL: none
+ *   direction_set    shape (count): the set that each takes; NULL: the first
  * and what the rays of pixels' specular shares met, NULL where all surfaces are taken as diffuse:
  *   background       shape (pixels): of mirrors, what they show
  *   background_lit   shape (pixels): whether the sun reaches that
@@ -47,6 +51,8 @@
     AND TABLE(global const hit_record *, hit)                                                      \
     AND TABLE(global const uint *, met)                                                            \
     AND TABLE(OPTIONAL global const uint *, order)                                                 \
+    AND TABLE(OPTIONAL global const uint *, direction_set)                                         \
+    AND TABLE(OPTIONAL global const float *, near_rays)                                            \
     AND TABLE(OPTIONAL global const background_record *, background)                               \
     AND TABLE(OPTIONAL global const float *, background_lit)                                       \
     AND TABLE(OPTIONAL global const uint *, gloss_words)

@@ -1,5 +1,7 @@
 #include "hemisphere/hemisphere_grid.h"
 
+#include "hemisphere/hemisphere_strata.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,8 +14,8 @@ enum { THIN = 6, THINNED_LEAST = 2 };
 static const double radian = 0.017453292519943295;
 
 struct hemisphere_grid {
-    float_buffer cell; /* shape (cell_count, 4): upslope, across, normal, weight */
-    uint32_t cell_count, azimuths;
+    float_buffer cell; /* shape (set_count, cell_count, 4): upslope, across, normal, weight */
+    uint32_t set_count, cell_count, azimuths;
 };
 
 const char *const shape_factor_reading_names[SHAPE_FACTOR_READINGS] = {"cosine", "solid-angle",
@@ -99,12 +101,39 @@ status hemisphere_grid_open(hemisphere_grid **out, device *dev, shape_factor_rea
 
     NEED(grid, STATUS_MEMORY, "no memory for a hemisphere");
     TRY(count_cells(&rings, &azimuths, zenith_step_deg, azimuth_step_deg));
+    grid->set_count = 1;
     grid->cell_count = rings * azimuths;
     grid->azimuths = azimuths;
     cell = malloc(grid->cell_count * sizeof *cell);
     NEED(cell, STATUS_MEMORY, "no memory for a hemisphere of %u cells", grid->cell_count);
     fill_cells(cell, reading, rings, azimuths);
     TRY(device_allocate(dev, &grid->cell, 4 * grid->cell_count, cell[0]));
+    *out = grid;
+    grid = NULL;
+out:
+    free(cell);
+    hemisphere_grid_free(grid);
+    return rc;
+}
+
+status hemisphere_grid_open_strata(hemisphere_grid **out, device *dev, double zenith_step_deg,
+                                   double azimuth_step_deg, uint32_t set_count, uint32_t seed)
+{
+    status rc = STATUS_OK;
+    hemisphere_grid *grid = calloc(1, sizeof *grid);
+    float(*cell)[4] = NULL;
+    uint32_t rings = 0, azimuths = 0;
+
+    NEED(grid, STATUS_MEMORY, "no memory for a hemisphere");
+    TRY(count_cells(&rings, &azimuths, zenith_step_deg, azimuth_step_deg));
+    grid->set_count = set_count > 0 ? set_count : 1;
+    grid->cell_count = rings * azimuths;
+    grid->azimuths = azimuths;
+    cell = malloc((size_t)grid->set_count * grid->cell_count * sizeof *cell);
+    NEED(cell, STATUS_MEMORY, "no memory for %u hemispheres of %u cells", grid->set_count,
+         grid->cell_count);
+    hemisphere_strata_fill(cell, rings, azimuths, set_count, seed);
+    TRY(device_allocate(dev, &grid->cell, 4 * (size_t)grid->set_count * grid->cell_count, cell[0]));
     *out = grid;
     grid = NULL;
 out:
@@ -135,6 +164,7 @@ static status open_some(hemisphere_grid **out, device *dev, const hemisphere_gri
         memmove(cell[some->cell_count], cell[i], sizeof *cell);
         cell[some->cell_count++][3] *= weighs[i];
     }
+    some->set_count = 1;
     some->azimuths = some->cell_count;
     TRY(device_allocate(dev, &some->cell, 4 * some->cell_count, cell[0]));
     *out = some;
@@ -187,6 +217,11 @@ void hemisphere_grid_free(hemisphere_grid *grid)
 uint32_t hemisphere_grid_cell_count(const hemisphere_grid *grid)
 {
     return grid->cell_count;
+}
+
+uint32_t hemisphere_grid_set_count(const hemisphere_grid *grid)
+{
+    return grid->set_count;
 }
 
 float_buffer hemisphere_grid_cells(const hemisphere_grid *grid)

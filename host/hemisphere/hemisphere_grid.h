@@ -29,6 +29,12 @@ typedef struct hemisphere_grid hemisphere_grid;
 status hemisphere_grid_open(hemisphere_grid **out, device *dev, shape_factor_reading reading,
                             double zenith_step_deg, double azimuth_step_deg);
 
+/* A grid whose rings have equal projected solid angles, and all cells equal weights: of the middles of the cells
+ * where set_count is 0, else of so many sets of a random direction in each cell, see hemisphere_strata.h. Fails
+ * as above. */
+status hemisphere_grid_open_strata(hemisphere_grid **out, device *dev, double zenith_step_deg,
+                                   double azimuth_step_deg, uint32_t set_count, uint32_t seed);
+
 /* Which of so many parts a cell belongs to: neighbours go to different ones, as the multiples of the
  * golden section are spread. */
 uint32_t hemisphere_grid_part_of(uint32_t cell, uint32_t parts);
@@ -46,7 +52,10 @@ void hemisphere_grid_free(hemisphere_grid *grid);
 
 uint32_t hemisphere_grid_cell_count(const hemisphere_grid *grid);
 
-/* The grid on the device: shape (cell_count, 4), see hemisphere.cl. */
+/* Sets of directions, 1 or more. */
+uint32_t hemisphere_grid_set_count(const hemisphere_grid *grid);
+
+/* The grid on the device: shape (set_count, cell_count, 4), see hemisphere.cl. */
 float_buffer hemisphere_grid_cells(const hemisphere_grid *grid);
 
 #endif

@@ -10,9 +10,15 @@
 typedef struct shape_factor_points {
     uint32_t count;
     hit_record_buffer hit; /* shape (count); only point, facet and normal are read */
-    uint_buffer met;       /* shape (hemisphere_grid_cell_count, count): written, hemisphere.cl */
+    uint_buffer
+        met; /* shape (hemisphere_grid_cell_count, and NEAR_FACETS where there is near_rays, count): written,
+                      * hemisphere.cl */
+    float_buffer
+        near_rays; /* shape (NEAR_FACETS, 4, count): written, near_facets.cl; NULL: nobody asks */
     uint_buffer order; /* shape (count): which point of what is computed each of these is; NULL: the
                         * same */
+    uint_buffer
+        direction_set; /* shape (count): of grids of several sets; NULL: the first for all */
 } shape_factor_points;
 
 /* Casts the rays of the hemisphere above every point and tells what they meet; the rest as below. */

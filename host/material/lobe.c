@@ -56,9 +56,10 @@ void lobe_fill(const float *table, uint32_t sample_count, uint32_t ring_count, f
         out[i] = whole > 0.0 ? (float)(1.0 / whole) : 0.0f;
     }
     for (uint32_t r = 0; r < ring_count; r++) {
-        const double step = 90.0 / ring_count, high = 90.0 - r * step;
+        const double high = acos(sqrt((double)r / ring_count)) / radian;
+        const double low = acos(sqrt((r + 1.0) / ring_count)) / radian;
         float *row = out + (size_t)(r + LOBE_ROWS) * sample_count;
-        weigh_ring(weight, high - step, high);
+        weigh_ring(weight, low, high);
         for (uint32_t i = 0; i < sample_count; i++)
             row[i] = out[i] > 0.0f
                          ? (float)mean_reflectance(weight, table, sample_count, i) * out[i]

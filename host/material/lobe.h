@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-/* Averages what a surface reflects, 1 - e, over the rings of a hemisphere; every direction counts by
+/* Averages what a surface reflects, 1 - e, over rings of equal projected solid angle; every direction counts by
  * its cosine, and e is linear between the degrees. The first row is 1 / (1 - e_hemi) of the whole
  * hemisphere, 0 where that divides by 0; the others are means over the rings, the lowest first,
  * divided by 1 - e_hemi, 1 where that is 0.

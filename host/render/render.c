@@ -3,6 +3,7 @@
 #include "kernels/band_plane.h"
 
 #include "base/clock.h"
+#include "hemisphere/hemisphere_strata.h"
 #include "rays/media.h"
 #include "rays/scene_rays.h"
 #include "render/render_tile.h"
@@ -47,20 +48,39 @@ static void end_stage(render *r, const char *name)
     r->stage_start_s = end;
 }
 
+/* Sets of directions of pixels' hemispheres: whole rounds, and so many that each sample has its own. */
+static uint32_t hemisphere_sets(const scene *s)
+{
+    const uint32_t side = s->samples_per_side > 1 ? s->samples_per_side : 1;
+
+    return (side * side + HEMISPHERE_SETS - 1) / HEMISPHERE_SETS * HEMISPHERE_SETS;
+}
+
 static status open_hemispheres(render *r)
 {
     status rc = STATUS_OK;
     const scene *s = r->shared.s;
     device *dev = r->shared.dev;
-    const shape_factor_reading reading = s->thesis ? SHAPE_FACTOR_THESIS : SHAPE_FACTOR_COSINE;
+    const double zenith_deg = s->hemisphere_zenith_step_deg;
+    const double azimuth_deg = s->hemisphere_azimuth_step_deg;
+    hemisphere_grid *middles = NULL;
 
-    TRY(hemisphere_grid_open(&r->shared.grid, dev, reading, s->hemisphere_zenith_step_deg,
-                             s->hemisphere_azimuth_step_deg));
+    if (s->thesis) {
+        TRY(hemisphere_grid_open(&r->shared.grid, dev, SHAPE_FACTOR_THESIS, zenith_deg,
+                                 azimuth_deg));
+        TRY(hemisphere_grid_open(&r->shared.coarse_grid, dev, SHAPE_FACTOR_THESIS,
+                                 coarse_zenith_step_deg, coarse_azimuth_step_deg));
+        return rc;
+    }
+    TRY(hemisphere_grid_open_strata(&r->shared.grid, dev, zenith_deg, azimuth_deg,
+                                    hemisphere_sets(s), s->seed));
+    TRY(hemisphere_grid_open_strata(&r->shared.coarse_grid, dev, coarse_zenith_step_deg,
+                                    coarse_azimuth_step_deg, 0, 0));
+    TRY(hemisphere_grid_open_strata(&middles, dev, zenith_deg, azimuth_deg, 0, 0));
     /* A pixel gets the mean of many facets, and reflects what they reflect: few rays each will do. */
-    if (!s->thesis) TRY(hemisphere_grid_open_thinned(&r->shared.facet_grid, dev, r->shared.grid));
-    TRY(hemisphere_grid_open(&r->shared.coarse_grid, dev, reading, coarse_zenith_step_deg,
-                             coarse_azimuth_step_deg));
+    TRY(hemisphere_grid_open_thinned(&r->shared.facet_grid, dev, middles));
 out:
+    hemisphere_grid_free(middles);
     return rc;
 }
 

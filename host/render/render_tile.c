@@ -106,7 +106,10 @@ static status allocate(render_tile_memory *t, const render_shared *r)
     TRY(device_allocate(r->dev, &t->pixels.hit, n, NULL));
     TRY(device_allocate(r->dev, &t->points.hit, n, NULL));
     TRY(device_allocate(r->dev, &t->points.order, n, NULL));
-    TRY(device_allocate(r->dev, &t->points.met, n * hemisphere_grid_cell_count(r->grid), NULL));
+    TRY(device_allocate(r->dev, &t->points.direction_set, n, NULL));
+    TRY(device_allocate(r->dev, &t->points.met,
+                        n * (hemisphere_grid_cell_count(r->grid) + NEAR_FACETS), NULL));
+    if (has_incident(r)) TRY(device_allocate(r->dev, &t->points.near_rays, n * 4 * NEAR_FACETS, NULL));
     TRY(device_allocate(r->dev, &t->pixels.sunlit, n, NULL));
     TRY(device_allocate(r->dev, &t->history, n * temperature_history_words(r->temperatures), NULL));
     TRY(device_allocate(r->dev, &t->pixels.temperature_k, n, NULL));
@@ -165,6 +168,8 @@ void render_tile_free(render_tile_memory *t)
     device_release(t->history);
     device_release(t->pixels.sunlit);
     device_release(t->points.met);
+    device_release(t->points.direction_set);
+    device_release(t->points.near_rays);
     device_release(t->points.order);
     device_release(t->points.hit);
     device_release(t->pixels.hit);
@@ -175,13 +180,20 @@ void render_tile_free(render_tile_memory *t)
 static status trace(const render_tile_memory *t, const render_shared *r)
 {
     status rc = STATUS_OK;
-    const point_tile where = {t->first, t->count, r->frame.columns * t->samples};
+    const point_tile where = {.first = t->first,
+                              .count = t->count,
+                              .columns = r->frame.columns,
+                              .samples = t->samples,
+                              .first_column = r->camera.first_column,
+                              .first_row = r->camera.first_row,
+                              .seed = r->camera.seed,
+                              .has_sets = hemisphere_grid_set_count(r->grid) > 1};
 
     TRY(ray_scene_primary(r->rays, &r->camera, r->frame.columns, t->first, t->count,
                           t->pixels.hit));
     TRY(sunlight_cast(r->rays, r->frame.sun, t->count, t->pixels.hit, t->pixels.sunlit));
     TRY(point_order_run(r->dev, t->pixels.hit, r->tables.facet, &where, t->points.order,
-                        t->points.hit));
+                        t->points.direction_set, t->points.hit));
     TRY(shape_factor_run(r->is_coarse ? r->coarse_grid : r->grid, r->rays, &r->surfaces,
                          has_incident(r) ? r->frame.sun : NULL, &t->points, t->pixels.background));
     TRY(mirror_run(r->dev, shape1(t->count),

@@ -64,7 +64,9 @@ SHARED_BODY kernel void background(const uint count, const uint cell_count, TABL
         if (all[i].met_count > 0) {
             const uint best = commonest(&all[i], surfaces.materials);
             const hit_record at = rays.hit[first + i];
-            const ray r = hemisphere_ray(&at, rays.cell, all[i].first[best], &tree.world);
+            const uint set = rays.direction_set ? rays.direction_set[first + i] : 0u;
+            const ray r = hemisphere_ray(&at, rays.cell + 4u * cell_count * set, all[i].first[best],
+                                         &tree.world);
             back.shape_factor = ((const float *)&open)[i];
             back.mean_temperature_k = all[i].base_k + all[i].excess_k / (float)all[i].met_count;
             back.material = all[i].material[best];

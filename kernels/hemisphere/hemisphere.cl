@@ -6,38 +6,21 @@
 /* Points of a group that face one way go as a beam from so many on. */
 #define FEW_ALIKE 3
 
-/* Takes a group. Lanes without a point have the normal of one that has one.
- *   place   of the first among `count` */
-static hemisphere_points take_points(const world_record *world, global const hit_record *hit,
-                                     const uint place, const uint count)
-{
-    hemisphere_points out = {.alive = 0, .place = place};
-
-    for (uint i = 0; i < RAY_LANES && place + i < count; i++) {
-        const hit_record at = hit[place + i];
-        if (at.facet == RECORD_NONE) continue;
-        const float offset_m = ray_offset(world, at.point, at.normal);
-        out.alive |= 1u << i;
-        for (int k = 0; k < 3; k++) {
-            if (out.alive == 1u << i) out.normal[k] = (lanes)at.normal[k];
-            LANES_SET(out.normal[k], i, at.normal[k]);
-            LANES_SET(out.origin[k], i, at.point[k] + offset_m * at.normal[k]);
-        }
-    }
-    return out;
-}
-
 #if RAY_LANES == 16
 
-/* Whether all points of all groups face one way; tells which. */
-static uint face_one_way(const hemisphere_points *points, const uint groups, float out_normal[3])
+/* Whether all points of all groups face one way and take one set of directions; tells which. */
+static uint face_one_way(const hemisphere_points *points, const uint groups, float out_normal[3],
+                         uint *out_set)
 {
     uint some = 0;
 
     for (uint g = 0; g < groups; g++) {
         const uint alive = points[g].alive, lane = 31 - clz(alive & -alive);
         if (alive == 0) continue;
+        const uint set = ((const uint *)&points[g].sets.first)[lane];
         if (hemisphere_facing_as(&points[g], lane) != alive) return 0;
+        if (some && set != *out_set) return 0;
+        *out_set = set;
         for (int k = 0; k < 3; k++) {
             const float normal = ((const float *)&points[g].normal[k])[lane];
             if (some && normal != out_normal[k]) return 0;
@@ -48,9 +31,9 @@ static uint face_one_way(const hemisphere_points *points, const uint groups, flo
     return some;
 }
 
-/* Casts the rays of those points of a group that face as others do; leaves it the rest. */
+/* Casts the rays of those points of a group that face as others do, with one set; leaves it the rest. */
 static void cast_those_alike(ray_queue *shadows, const hemisphere_scene *scene,
-                             hemisphere_points *points, global const float *cell, const uint cells)
+                             hemisphere_points *points, const uint cells)
 {
     uint apart = 0;
 
@@ -63,7 +46,8 @@ static void cast_those_alike(ray_queue *shadows, const hemisphere_scene *scene,
         if (popcount(same) < FEW_ALIKE)
             apart |= same;
         else
-            hemisphere_cast_alike(shadows, scene, points, 1, normal, cell, cells);
+            hemisphere_cast_alike(shadows, scene, points, 1, normal,
+                                  scene->cell + ((const uint *)&points->sets.first)[lane], cells);
         points->alive = alive & ~same;
     }
     points->alive = apart;
@@ -74,13 +58,13 @@ static void cast_those_alike(ray_queue *shadows, const hemisphere_scene *scene,
 /* Casts the rays of the hemisphere above points.
  * Launch: (count / RAY_BUNDLE, cell_count / 72 where RAY_LANES is 16, else count, cell_count), rounded
  * up. sun_x, sun_y, sun_z: unit vector towards the sun; at or below the horizon, and (0, 0, 0),
- * nothing is lit. cell: (cell_count, 4) direction along upslope, across and normal, weight; hit:
- * (count); out_met: (cell_count, count) the facet met, with HEMISPHERE_LIT where the sun reaches the
+ * nothing is lit. cell: (sets, cell_count, 4) direction along upslope, across and normal, weight; hit:
+ * (count); direction_set: (count), NULL: the first for all; out_met: (cell_count, count) the facet met, with HEMISPHERE_LIT where the sun reaches the
  * point met; RECORD_NONE for the sky and for points without a facet. */
 SHARED_BODY kernel void hemisphere(const uint count, const uint cell_count, const float sun_x,
                                    const float sun_y, const float sun_z, TABLES(TREE_TABLES),
                                    global const float *cell, global const hit_record *hit,
-                                   global uint *out_met)
+                                   OPTIONAL global const uint *direction_set, global uint *out_met)
 {
     const uint first = get_global_id(0) * RAY_GROUPS * RAY_LANES;
     const uint first_cell = get_global_id(1) * HEMISPHERE_CELLS;
@@ -89,6 +73,7 @@ SHARED_BODY kernel void hemisphere(const uint count, const uint cell_count, cons
     const uint left = min((uint)(RAY_GROUPS * RAY_LANES), count - first);
     const hemisphere_scene scene = {.tree = TABLES_GIVEN(TREE_TABLES),
                                     .sun = {sun_x, sun_y, sun_z},
+                                    .cell = cell + 4 * first_cell,
                                     .out_met = out_met + (size_t)first_cell * count + first,
                                     .stride = count};
     ray_queue shadows = ray_queue_of(&scene.tree.world);
@@ -97,23 +82,26 @@ SHARED_BODY kernel void hemisphere(const uint count, const uint cell_count, cons
     uint groups = 0;
 
     for (; groups * RAY_LANES < left; groups++)
-        points[groups] = take_points(&scene.tree.world, hit + first, groups * RAY_LANES, left);
+        points[groups] = hemisphere_take_points(
+            &scene.tree.world, hit + first,
+            hemisphere_sets_of(direction_set, cell_count, first + groups * RAY_LANES, count),
+            groups * RAY_LANES, left);
     for (uint c = 0; c < cells; c++)
         for (uint i = 0; i < left; i++) scene.out_met[c * (size_t)count + i] = RECORD_NONE;
-    cell += 4 * first_cell;
 #if RAY_LANES == 16
     float normal[3];
-    if (face_one_way(points, groups, normal)) {
-        hemisphere_cast_alike(&shadows, &scene, points, groups, normal, cell, cells);
+    uint set;
+    if (face_one_way(points, groups, normal, &set)) {
+        hemisphere_cast_alike(&shadows, &scene, points, groups, normal, scene.cell + set, cells);
         groups = 0;
     }
-    for (uint g = 0; g < groups; g++) cast_those_alike(&shadows, &scene, &points[g], cell, cells);
+    for (uint g = 0; g < groups; g++) cast_those_alike(&shadows, &scene, &points[g], cells);
 #endif
     for (uint g = 0; g < groups; g++) {
         if (points[g].alive == 0) continue;
         if (rays.row_count + cells > HEMISPHERE_CELLS)
             hemisphere_cast_apart(&shadows, &scene, &rays);
-        hemisphere_add_rays(&rays, &scene, &points[g], cell, cells);
+        hemisphere_add_rays(&rays, &scene, &points[g], cells);
     }
     hemisphere_cast_apart(&shadows, &scene, &rays);
     if (shadows.count > 0) hemisphere_cast_shadows(&shadows, &scene);

@@ -13,10 +13,10 @@ typedef struct hemisphere_alike {
     ray_beam_box box[RAY_GROUPS], all; /* where their rays begin */
 } hemisphere_alike;
 
-/* The points of a group that face as one of them does: a bit each. */
+/* The points of a group that face as one of them does and take its set of directions: a bit each. */
 static uint hemisphere_facing_as(const hemisphere_points *points, const uint lane)
 {
-    uint differ = 0;
+    uint differ = lanes_bits_of(points->sets.first != ((const uint *)&points->sets.first)[lane]);
 
     for (int k = 0; k < 3; k++)
         differ |= lanes_bits_of(points->normal[k] != ((const float *)&points->normal[k])[lane]);

@@ -20,14 +20,14 @@ typedef struct hemisphere_rays {
 
 /* Adds a group's rays; there must be room for a row per cell. */
 static void hemisphere_add_rays(hemisphere_rays *rays, const hemisphere_scene *scene,
-                                const hemisphere_points *points, global const float *cell,
-                                const uint cells)
+                                const hemisphere_points *points, const uint cells)
 {
     const hemisphere_lanes frame = hemisphere_lanes_of(points->normal);
 
     for (uint c = 0; c < cells; c++) {
         const uint row = rays->row_count++;
-        hemisphere_lanes_direction(&frame, cell + 4 * c, rays->direction[row]);
+        hemisphere_cell_directions(&frame, &points->sets, scene->cell + 4 * c,
+                                   rays->direction[row]);
         rays->points[row] = points;
         rays->word[row] = c * scene->stride + points->place;
     }

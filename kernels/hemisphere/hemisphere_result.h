@@ -3,7 +3,7 @@
 #ifndef HEMISPHERE_RESULT_H
 #define HEMISPHERE_RESULT_H
 
-#include "kernels/hemisphere/hemisphere.h"
+#include "kernels/hemisphere/hemisphere_lanes.h"
 #include "kernels/rays/hit_lanes.h"
 #include "kernels/rays/ray_queue.h"
 
@@ -14,17 +14,42 @@
 typedef struct hemisphere_scene {
     tree_tables tree;
     float sun[3];
-    global uint *out_met; /* of the first point in the first cell */
-    uint stride;          /* points of a cell */
+    global const float *cell; /* of the first set */
+    global uint *out_met;     /* of the first point in the first cell */
+    uint stride;              /* points of a cell */
 } hemisphere_scene;
 
 /* Points that stand side by side. */
 typedef struct hemisphere_points {
     lanes origin[3]; /* where their rays begin */
     lanes normal[3];
+    hemisphere_sets sets;
     uint alive; /* a bit per point on a facet */
     uint place; /* of the first in a cell */
 } hemisphere_points;
+
+/* Takes a group. Lanes without a point have the normal of one that has one.
+ *   place   of the first among `count` */
+static hemisphere_points hemisphere_take_points(const world_record *world,
+                                                global const hit_record *hit,
+                                                const hemisphere_sets sets, const uint place,
+                                                const uint count)
+{
+    hemisphere_points out = {.sets = sets, .alive = 0, .place = place};
+
+    for (uint i = 0; i < RAY_LANES && place + i < count; i++) {
+        const hit_record at = hit[place + i];
+        if (at.facet == RECORD_NONE) continue;
+        const float offset_m = ray_offset(world, at.point, at.normal);
+        out.alive |= 1u << i;
+        for (int k = 0; k < 3; k++) {
+            if (out.alive == 1u << i) out.normal[k] = (lanes)at.normal[k];
+            LANES_SET(out.normal[k], i, at.normal[k]);
+            LANES_SET(out.origin[k], i, at.point[k] + offset_m * at.normal[k]);
+        }
+    }
+    return out;
+}
 
 /* Casts the rays towards the sun that wait; the words that mark those that reach it say so. */
 static void hemisphere_cast_shadows(ray_queue *shadows, const hemisphere_scene *scene)

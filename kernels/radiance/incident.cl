@@ -1,5 +1,6 @@
 #include "kernels/radiance/gloss.h"
 #include "kernels/radiance/incident_faces.h"
+#include "kernels/radiance/incident_near.h"
 #include "kernels/radiance/sky_columns.h"
 #include "kernels/radiance/sky_pixel.h"
 
@@ -38,6 +39,12 @@ INLINE void write_diffuse(sky_column *column, const incident_group *g, const inc
         else
             incident_add_faces(g, t, part, out + t->frame.sample_count);
     }
+    if (g->near.rows == 0u) return;
+    const incident_part near = {params.cell_count,
+                                params.cell_count + params.ring_count * g->near.rows};
+    incident_add_faces(g, t, near, out + t->frame.sample_count);
+    incident_near_sky(g, t, out);
+    incident_near_even(g, t, out);
 }
 
 /* Writes nothing where a lane reflects nothing diffusely.
@@ -110,14 +117,16 @@ SHARED_BODY kernel void incident(const radiometry_record frame, const camera_rec
                                .emitters = {.surfaces = TABLES_GIVEN(SURFACE_TABLES),
                                             .light = TABLES_GIVEN(LIGHT_TABLES),
                                             .light_length = params.light_length},
-                               .cells = {params.cell_count, params.ring_count, rays.cell, rays.met},
+                               .cells = {params.cell_count, params.ring_count, rays.cell, rays.met,
+                                         rays.direction_set, rays.near_rays},
                                .spectra = TABLES_GIVEN(SPECTRA_TABLES),
                                .dome = dome};
     sky_column column;
 
     sky_forget(&column);
     for (uint first = begin; first < end; first += LANES_WIDTH) {
-        const incident_group g = incident_take_group(first, &t, &rays);
+        incident_group g = incident_take_group(first, &t, &rays);
+        incident_near_find(&g.near, &g, &t);
         clear_others(&g, &t, out);
         if (g.diffuse) write_diffuse(&column, &g, &t, out);
         for (uint i = 0; i < g.lane_count; i++) {

@@ -26,6 +26,16 @@ typedef struct incident_part {
     uint first, end;
 } incident_part;
 
+/* Facets near the lanes that their rays brought too little of, near_facets.cl; incident_near.h. */
+typedef struct incident_near {
+    uint rows; /* facets a lane, at most */
+    lanes weight[NEAR_FACETS], direction[NEAR_FACETS][3];
+    lanes_bits word[NEAR_FACETS], ring[NEAR_FACETS]; /* ring: of the lobes, that each lies in */
+    lanes rest[2];            /* what rays beside near facets count, below and above the horizon, */
+    lanes sky[2];             /* and what of them is sky */
+    lanes change[LOBE_RINGS]; /* of the weights of diffuse lobes' rings */
+} incident_near;
+
 /* LANES_WIDTH neighbouring pixels. */
 typedef struct incident_group {
     uint first, lane_count;
@@ -34,8 +44,9 @@ typedef struct incident_group {
     float specular[LANES_WIDTH]; /* share */
     uint lobe[LANES_WIDTH];      /* first row of the diffuse lobe, RECORD_NONE: Lambertian */
     uint column_count;
-    uint column[LANES_WIDTH]; /* a bit per diffuse lane: those with one normal and one lobe */
+    uint column[LANES_WIDTH]; /* a bit per diffuse lane: those with one normal, set and lobe */
     diffuse_view view;
+    incident_near near;
 } incident_group;
 
 /* The first lane of some. */
@@ -44,17 +55,19 @@ static inline uint incident_first_of(uint bits)
     return 31u - clz(bits & -bits);
 }
 
-/* Finds which diffuse lanes have equal normals and lobes. */
+/* Finds which diffuse lanes have equal normals, sets of directions and lobes. */
 static inline void incident_find_columns(incident_group *g)
 {
     const lanes *normal = g->view.axes.normal;
+    const lanes_bits set = g->view.sets.first;
 
     g->column_count = 0u;
     for (uint left = g->diffuse, same; left; left &= ~same) {
         const uint lane = incident_first_of(left);
         same = left & lanes_bits_of((normal[0] == lane_of(&normal[0], lane)) &
                                     (normal[1] == lane_of(&normal[1], lane)) &
-                                    (normal[2] == lane_of(&normal[2], lane)));
+                                    (normal[2] == lane_of(&normal[2], lane)) &
+                                    (set == ((const uint *)&set)[lane]));
         for (uint i = 0; i < LANES_WIDTH; i++) same &= ~((uint)(g->lobe[i] != g->lobe[lane]) << i);
         g->column[g->column_count++] = same;
     }

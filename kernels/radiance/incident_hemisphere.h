@@ -70,17 +70,20 @@ static inline incident_facet see_facet(const emitter_tables *t, radiometry_recor
  * sky's. */
 typedef struct diffuse_view {
     hemisphere_lanes axes;
+    hemisphere_sets sets;
     lanes above, below;
     lanes open;             /* the sky's fraction of an open hemisphere */
     lanes seen;             /* of the cells above the horizon, the fraction that sees the sky */
-    lanes ring[LOBE_RINGS]; /* weights of the rings of diffuse lobes */
+    lanes ring[LOBE_RINGS]; /* weights of the rings of diffuse lobes, */
+    lanes high[LOBE_RINGS]; /* and of what of them is above the horizon */
 } diffuse_view;
 
 /* The grid of the hemisphere and what its rays met, see hemisphere.cl. */
 typedef struct incident_cells {
-    uint count, ring_count; /* rings of diffuse lobes, each of as many cells */
-    global const float *cell;
-    global const uint *met;
+    uint count, ring_count;   /* rings of diffuse lobes, each of as many cells */
+    global const float *cell; /* of the first set */
+    global const uint *met, *direction_set;
+    global const float *near; /* NULL: none */
 } incident_cells;
 
 /* Ring of the lobes that a cell lies in; the lowest first. */
@@ -93,29 +96,32 @@ static inline uint ring_of_cell(incident_cells cells, uint c)
 static inline diffuse_view look_around(const lanes *normal, incident_cells cells, uint first,
                                        uint count)
 {
-    diffuse_view view = {.axes = hemisphere_lanes_of(normal)};
-    const lanes fraction = 0.5f * (1.0f + normal[2]);
+    diffuse_view view = {.axes = hemisphere_lanes_of(normal),
+                         .sets =
+                             hemisphere_sets_of(cells.direction_set, cells.count, first, count)};
     lanes above = (lanes)0.0f, seen = (lanes)0.0f, direction[3];
-    lanes high[LOBE_RINGS], whole[LOBE_RINGS];
+    lanes whole[LOBE_RINGS];
 
-    for (uint r = 0; r < cells.ring_count; r++) high[r] = whole[r] = (lanes)0.0f;
+    for (uint r = 0; r < cells.ring_count; r++) view.high[r] = whole[r] = (lanes)0.0f;
     for (uint c = 0; c < cells.count; c++) {
         const lanes_bits word = lanes_load_bits(cells.met + (size_t)c * count, first, count);
-        hemisphere_lanes_direction(&view.axes, cells.cell + 4u * c, direction);
+        hemisphere_cell_directions(&view.axes, &view.sets, cells.cell + 4u * c, direction);
         const lanes weight = direction[2] > 0.0f ? (lanes)cells.cell[4u * c + 3u] : (lanes)0.0f;
         const uint ring = ring_of_cell(cells, c);
         above += weight;
         seen += word == RECORD_NONE ? weight : (lanes)0.0f;
-        high[ring] += weight;
+        view.high[ring] += weight;
         whole[ring] += cells.cell[4u * c + 3u];
     }
-    const lanes_mask has_both = (above > 1e-6f) & (above < 1.0f - 1e-6f);
-    view.above = has_both ? fraction / above : (lanes)1.0f;
-    view.below = has_both ? (1.0f - fraction) / (1.0f - above) : (lanes)1.0f;
+    const hemisphere_shares shares = hemisphere_share(normal[2], above);
+    view.above = shares.above;
+    view.below = shares.below;
     view.open = above * view.above;
     view.seen = above > 0.0f ? seen / above : (lanes)0.0f;
-    for (uint r = 0; r < cells.ring_count; r++)
-        view.ring[r] = view.above * high[r] + view.below * (whole[r] - high[r]);
+    for (uint r = 0; r < cells.ring_count; r++) {
+        view.ring[r] = view.above * view.high[r] + view.below * (whole[r] - view.high[r]);
+        view.high[r] *= view.above;
+    }
     return view;
 }
 

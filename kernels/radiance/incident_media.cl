@@ -63,7 +63,7 @@ static uint take_cell_ray(const hemisphere_tables *rays, const body_lobe *lobe, 
 {
     global const float *cell = rays->cell + 4u * c;
 
-    hemisphere_lanes_direction(&lobe->view.axes, cell, out_direction);
+    hemisphere_cell_directions(&lobe->view.axes, &lobe->view.sets, cell, out_direction);
     *weight *= cell[3];
     *weight *= out_direction[2] > 0.0f ? lobe->view.above : lobe->view.below;
     return rays->met[(size_t)c * count + place];
@@ -130,7 +130,9 @@ kernel void incident_media(const radiometry_record frame, const camera_record ca
     const material_record material = surfaces.materials[surfaces.facets[at.facet].material];
     const float specular = material.specular_share;
     const uint cell_rays = specular < 1.0f ? params.cell_count : 0u;
-    const incident_cells cells = {cell_rays, params.ring_count, rays.cell, rays.met};
+    const incident_cells cells = {cell_rays,          params.ring_count,  rays.cell,
+                                  rays.met,           rays.direction_set, rays.near_rays,
+                                  params.ground_facet};
     body_lobe lobe = {.view = look_around(at.normal, cells, place, frame.pixel_count),
                       .ring_count = params.ring_count};
     global float *from_sky = out + (size_t)pixel * 2u * frame.sample_count;

@@ -38,16 +38,51 @@ typedef struct incident_view {
     lanes direction[3], weight;
 } incident_view;
 
-static inline incident_view incident_look(const incident_group *g, const incident_tables *t, uint c)
+/* The cell without regard to near facets. */
+static inline incident_view incident_look_plain(const incident_group *g, const incident_tables *t,
+                                                uint c)
 {
     const uint count = t->frame.pixel_count;
     incident_view view;
 
     view.word = lanes_load_bits(t->cells.met + (size_t)c * count, g->first, count);
     view.met = g->diffuse & lanes_bits_of(view.word != RECORD_NONE);
-    hemisphere_lanes_direction(&g->view.axes, t->cells.cell + 4u * c, view.direction);
+    hemisphere_cell_directions(&g->view.axes, &g->view.sets, t->cells.cell + 4u * c,
+                               view.direction);
     view.weight =
         t->cells.cell[4u * c + 3u] * (view.direction[2] > 0.0f ? g->view.above : g->view.below);
+    return view;
+}
+
+/* Which of the lanes met a near facet of theirs. */
+static inline lanes_mask incident_is_near(const incident_near *near, lanes_bits word)
+{
+    lanes_mask is_near = (lanes_mask)0;
+
+    for (uint k = 0; k < near->rows; k++)
+        is_near |= (near->weight[k] != 0.0f) & (((near->word[k] ^ word) & ~HEMISPHERE_LIT) == 0u);
+    return is_near;
+}
+
+/* A cell, or behind the last of them a near facet: all of one ring of the lobes, then those of the next. */
+static inline incident_view incident_look(const incident_group *g, const incident_tables *t, uint c)
+{
+    const incident_near *near = &g->near;
+    incident_view view;
+
+    if (c < t->cells.count) {
+        view = incident_look_plain(g, t, c);
+        if (near->rows > 0u && view.met)
+            view.weight *= incident_is_near(near, view.word) ? (lanes)1.0f
+                           : view.direction[2] > 0.0f        ? near->rest[1]
+                                                             : near->rest[0];
+        return view;
+    }
+    const uint k = (c - t->cells.count) % near->rows, ring = (c - t->cells.count) / near->rows;
+    view.word = near->word[k];
+    view.weight = near->weight[k];
+    view.met = g->diffuse & lanes_bits_of((view.weight != 0.0f) & (near->ring[k] == ring));
+    for (uint axis = 0; axis < 3u; axis++) view.direction[axis] = near->direction[k][axis];
     return view;
 }
 

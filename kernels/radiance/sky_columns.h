@@ -42,7 +42,7 @@ static inline void sky_find_odd(sky_odd_cells *odd, const incident_group *g,
         odd->ring[c - part.first] = (uchar)ring_of_cell(t->cells, c);
         const lanes_bits word = lanes_load_bits(t->cells.met + (size_t)c * count, g->first, count);
         const lanes_mask sees = word == RECORD_NONE;
-        hemisphere_lanes_direction(&g->view.axes, t->cells.cell + 4u * c, direction);
+        hemisphere_cell_directions(&g->view.axes, &g->view.sets, t->cells.cell + 4u * c, direction);
         const lanes factor = direction[2] > 0.0f ? (sees ? of_seen : of_hidden)
                                                  : (sees ? g->view.below : (lanes)0.0f);
         const lanes weight = t->cells.cell[4u * c + 3u] * factor;
@@ -102,12 +102,13 @@ static inline void sky_find_cells(sky_cells *out, const incident_group *g, uint 
                                   const incident_tables *t, incident_part part)
 {
     const hemisphere_lanes *axes = &g->view.axes;
+    global const float *cell = t->cells.cell + ((const uint *)&g->view.sets.first)[lane];
     lanes in_frame[4], direction[3];
 
     for (uint at = 0; at < part.end - part.first; at += LANES_WIDTH) {
         for (uint i = 0; i < LANES_WIDTH; i++) {
             const uint c = min(part.first + at + i, part.end - 1u);
-            for (uint k = 0; k < 4u; k++) LANES_SET(in_frame[k], i, t->cells.cell[4u * c + k]);
+            for (uint k = 0; k < 4u; k++) LANES_SET(in_frame[k], i, cell[4u * c + k]);
         }
         UNROLL
         for (uint k = 0; k < 3u; k++)
@@ -127,6 +128,9 @@ typedef struct sky_weights {
     float above[SKY_WEIGHTS]; /* of the cells above the horizon */
     ushort direction[SKY_WEIGHTS];
     uint end[LOBE_RINGS]; /* of the rings, in turn */
+    float of_lobe
+        [LOBE_RINGS]; /* what the dome's points count more where a ring has a factor of its own: as many of
+                                * them lie in it as happens */
 } sky_weights;
 
 /* Floats of a ring before those that are 0 are left out. */
@@ -142,7 +146,7 @@ static inline lanes sky_ring_bounds(uint ring_count)
     lanes ring;
 
     for (uint i = 0; i < LANES_WIDTH; i++) LANES_SET(ring, i, (float)i);
-    return sin(fmin(0.5f * PI_F * ring / (float)ring_count, 0.5f * PI_F));
+    return sqrt(fmin(ring / (float)ring_count, 1.0f));
 }
 
 /* Adds LANES_WIDTH points of the dome.
@@ -169,8 +173,8 @@ static inline void sky_weigh_points(float *open, const incident_tables *t, uint 
 }
 
 /* Adds the points of the dome that the column of a lane faces.
- *   open   shape (ring_count, sky_stride), 0 */
-static inline void sky_weigh_dome(float *open, const incident_group *g, uint lane,
+ *   open   shape (ring_count, sky_stride), 0; of_lobe: shape (ring_count) */
+static inline void sky_weigh_dome(float *open, float *of_lobe, const incident_group *g, uint lane,
                                   const incident_tables *t)
 {
     const uint count = t->params.dome_count, rings = t->cells.ring_count;
@@ -190,7 +194,14 @@ static inline void sky_weigh_dome(float *open, const incident_group *g, uint lan
     }
     const float whole = spectrum_sum(sum);
     const float scale = whole > 0.0f ? lane_of(&g->view.open, lane) / whole : 0.0f;
-    for (uint d = 0; d < rings * sky_stride(t->frame); d++) open[d] *= scale;
+    for (uint r = 0; r < rings; r++) {
+        float *ring = open + r * sky_stride(t->frame), all = 0.0f;
+        for (uint d = 0; d < sky_stride(t->frame); d++) {
+            ring[d] *= scale;
+            all += ring[d];
+        }
+        of_lobe[r] = all > 0.0f ? lane_of(&g->view.high[r], lane) / all : 1.0f;
+    }
 }
 
 /* Leaves out what is 0. */
@@ -214,11 +225,12 @@ static inline void sky_pack(sky_weights *w, uint stride, uint ring_count)
     }
 }
 
-/* Lanes with equal normals and lobes. Cells and weights are those of a part of the hemisphere above any
+/* Lanes with equal normals, sets of directions and lobes. Cells and weights are those of a part of the hemisphere above any
  * surface of that normal. */
 typedef struct sky_column {
     uint lanes; /* a bit each */
     float normal[3];
+    uint set;
     incident_part part; /* end 0: of none yet */
     sky_cells cells;
     sky_weights weights;
@@ -234,7 +246,8 @@ static inline void sky_weigh(sky_column *column, const sky_odd_cells *odd, const
     sky_weights *w = &column->weights;
 
     for (uint d = 0; d < rings * stride; d++) w->open[d] = w->above[d] = 0.0f;
-    if (part.first == 0u) sky_weigh_dome(w->open, g, incident_first_of(column->lanes), t);
+    if (part.first == 0u)
+        sky_weigh_dome(w->open, w->of_lobe, g, incident_first_of(column->lanes), t);
     for (uint c = 0; c < part.end - part.first; c++)
         for (uint k = 0; k < 4u; k++)
             w->above[odd->ring[c] * stride + cells->direction[k][c]] +=
@@ -243,10 +256,10 @@ static inline void sky_weigh(sky_column *column, const sky_odd_cells *odd, const
 }
 
 /* The sky of a column in `side` blocks of samples.
- *   sky   row of the table's first direction */
-INLINE void sky_sum(const sky_weights *weights, const incident_lobe *lobe, const incident_tables *t,
-                    global const float *sky, uint block, const uint side, spectrum *out_open,
-                    spectrum *out_above)
+ *   has_lobe   0: the surface is Lambertian; sky: row of the table's first direction */
+INLINE void sky_sum(const sky_weights *weights, const incident_lobe *lobe, uint has_lobe,
+                    const incident_tables *t, global const float *sky, uint block, const uint side,
+                    spectrum *out_open, spectrum *out_above)
 {
     uint n = 0;
 
@@ -268,7 +281,8 @@ INLINE void sky_sum(const sky_weights *weights, const incident_lobe *lobe, const
         }
         UNROLL
         for (uint b = 0; b < side; b++) {
-            out_open[b] = fma(lobe->ring[r][b], open[b], out_open[b]);
+            const spectrum count = has_lobe ? weights->of_lobe[r] * lobe->ring[r][b] : 1.0f;
+            out_open[b] = fma(count, open[b], out_open[b]);
             out_above[b] = fma(lobe->ring[r][b], above[b], out_above[b]);
         }
     }
@@ -309,7 +323,8 @@ INLINE void sky_add_blocks(const sky_column *column, const sky_odd_cells *odd,
     spectrum open[SIDE], above[SIDE], cell[ROUND][SIDE];
 
     incident_find_lobe(&lobe, g, incident_first_of(column->lanes), t, block, side);
-    sky_sum(&column->weights, &lobe, t, sky, block, side, open, above);
+    const uint has_lobe = g->lobe[incident_first_of(column->lanes)] != RECORD_NONE;
+    sky_sum(&column->weights, &lobe, has_lobe, t, sky, block, side, open, above);
     sky_through_cells(&column->cells, odd, &lobe, t, sky, block, side, cell);
     for (uint left = column->lanes; left; left &= left - 1u) {
         const uint i = incident_first_of(left);
@@ -359,9 +374,12 @@ static inline void sky_turn(sky_column *column, uint lanes, const sky_odd_cells 
                             const incident_group *g, const incident_tables *t)
 {
     const uint lane = incident_first_of(lanes);
-    uint differs = column->part.first != odd->part.first || column->part.end != odd->part.end;
+    const uint set = ((const uint *)&g->view.sets.first)[lane];
+    uint differs = column->part.first != odd->part.first || column->part.end != odd->part.end ||
+                   column->set != set;
 
     column->lanes = lanes;
+    column->set = set;
     for (uint k = 0; k < 3u; k++) {
         const float normal = lane_of(&g->view.axes.normal[k], lane);
         differs |= column->normal[k] != normal;

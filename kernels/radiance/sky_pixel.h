@@ -29,8 +29,7 @@ static inline uint sky_ring_of(float cosine, uint ring_count)
 {
     uint ring = 0u;
 
-    for (uint r = 1; r < ring_count; r++)
-        ring += cosine > sin(0.5f * PI_F * (float)r / (float)ring_count);
+    for (uint r = 1; r < ring_count; r++) ring += cosine > sqrt((float)r / (float)ring_count);
     return ring;
 }
 
@@ -55,7 +54,13 @@ static inline void sky_weigh_dome(sky_column *out, const incident_group *g,
         whole += facing;
     }
     const float scale = whole > 0.0f ? g->view.seen * g->view.open / whole : 0.0f;
-    for (uint d = 0; d < rings * directions; d++) out->weight[d] *= scale;
+    for (uint r = 0; r < rings; r++) {
+        float *ring = out->weight + r * directions, all = 0.0f;
+        for (uint d = 0; d < directions; d++) all += ring[d];
+        const float own = g->view.high[r] * g->view.seen;
+        const float factor = g->lobe[0] == RECORD_NONE || !(all > 0.0f) ? scale : own / all;
+        for (uint d = 0; d < directions; d++) ring[d] *= factor;
+    }
 }
 
 /* What a cell counts beside its fraction of the open sky. */
@@ -76,7 +81,7 @@ static inline void sky_weigh_cells(sky_column *out, const incident_group *g,
     lanes direction[3];
 
     for (uint c = 0; c < t->cells.count; c++) {
-        hemisphere_lanes_direction(&g->view.axes, t->cells.cell + 4u * c, direction);
+        hemisphere_cell_directions(&g->view.axes, &g->view.sets, t->cells.cell + 4u * c, direction);
         const float weight = sky_cell_weight(g, t, c, direction);
         const sky_lookup at = sky_find(t->frame, direction[0], direction[1], direction[2]);
         float *low = out->weight + ring_of_cell(t->cells, c) * sky_direction_count(t->frame);

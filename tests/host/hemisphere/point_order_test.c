@@ -9,7 +9,7 @@
 enum { COUNT = 3 * PIXEL_GROUP };
 
 /* One row of an image. */
-static const point_tile row = {0, COUNT, COUNT};
+static const point_tile row = {.count = COUNT, .columns = COUNT, .samples = 1};
 
 static facet_record facet[3] = {{.material = 0}, {.material = 1}, {.material = 0}};
 
@@ -28,11 +28,11 @@ static void fill(hit_record hit[COUNT])
 static void every_point_stands_once(void **state)
 {
     hit_record hit[COUNT];
-    uint32_t order[COUNT], seen[COUNT] = {0};
+    uint32_t order[COUNT], set[COUNT], seen[COUNT] = {0};
 
     (void)state;
     fill(hit);
-    assert_int_equal(point_order_fill(order, hit, facet, &row), STATUS_OK);
+    assert_int_equal(point_order_fill(order, set, hit, facet, &row), STATUS_OK);
     for (int i = 0; i < COUNT; i++) seen[order[i]]++;
     for (int i = 0; i < COUNT; i++) assert_int_equal(seen[i], 1);
 }
@@ -40,11 +40,11 @@ static void every_point_stands_once(void **state)
 static void those_that_face_alike_come_first_in_whole_groups(void **state)
 {
     hit_record hit[COUNT];
-    uint32_t order[COUNT];
+    uint32_t order[COUNT], set[COUNT];
 
     (void)state;
     fill(hit);
-    assert_int_equal(point_order_fill(order, hit, facet, &row), STATUS_OK);
+    assert_int_equal(point_order_fill(order, set, hit, facet, &row), STATUS_OK);
     for (uint32_t i = 0; i < PIXEL_GROUP; i++) assert_int_equal(order[i], 2 * i + 1);
     /* The first that is left faces a way of its own, the level ones that are left stand together. */
     assert_int_equal(order[PIXEL_GROUP], 0);
@@ -57,25 +57,25 @@ static void those_that_face_alike_come_first_in_whole_groups(void **state)
 static void materials_and_misses_are_kept_apart(void **state)
 {
     hit_record hit[COUNT];
-    uint32_t order[COUNT];
+    uint32_t order[COUNT], set[COUNT];
 
     (void)state;
     for (int i = 0; i < COUNT; i++)
         hit[i] =
             i % 3 == 2 ? (hit_record){.facet = RECORD_NONE} : point((uint32_t)i % 3, 0.0f, 1.0f);
-    assert_int_equal(point_order_fill(order, hit, facet, &row), STATUS_OK);
+    assert_int_equal(point_order_fill(order, set, hit, facet, &row), STATUS_OK);
     for (uint32_t i = 0; i < COUNT; i++) assert_int_equal(order[i] % 3, i / PIXEL_GROUP);
 }
 
 static void the_sign_of_a_zero_does_not_count(void **state)
 {
     hit_record hit[COUNT];
-    uint32_t order[COUNT];
+    uint32_t order[COUNT], set[COUNT];
 
     (void)state;
     for (uint32_t i = 0; i < COUNT; i++)
         hit[i] = i < PIXEL_GROUP ? point(1, 1.0f, 0.0f) : point(0, i % 2 ? 0.0f : -0.0f, 1.0f);
-    assert_int_equal(point_order_fill(order, hit, facet, &row), STATUS_OK);
+    assert_int_equal(point_order_fill(order, set, hit, facet, &row), STATUS_OK);
     for (uint32_t i = 0; i < COUNT; i++) assert_int_equal(order[i], i);
 }
 
@@ -85,12 +85,12 @@ static void neighbours_in_the_image_stand_together(void **state)
 {
     enum { COLUMNS = 20, FIRST = 3, SIZE = 16 * COLUMNS - 8 };
     static hit_record hit[SIZE];
-    static uint32_t order[SIZE], seen[SIZE];
-    const point_tile tile = {FIRST, SIZE, COLUMNS};
+    static uint32_t order[SIZE], set[SIZE], seen[SIZE];
+    const point_tile tile = {.first = FIRST, .count = SIZE, .columns = COLUMNS, .samples = 1};
 
     (void)state;
     for (int i = 0; i < SIZE; i++) hit[i] = point(0, 0.0f, 1.0f);
-    assert_int_equal(point_order_fill(order, hit, facet, &tile), STATUS_OK);
+    assert_int_equal(point_order_fill(order, set, hit, facet, &tile), STATUS_OK);
     for (int i = 0; i < SIZE; i++) seen[order[i]]++;
     for (int i = 0; i < SIZE; i++) assert_int_equal(seen[i], 1);
     for (int i = 0; i < 61; i++) {

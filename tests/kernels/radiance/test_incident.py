@@ -9,17 +9,19 @@ RINGS, AROUND, SAMPLES, COUNT, FACETS = 6, 12, 32, 83, 7
 CELLS = RINGS * AROUND
 ZENITHS, AZIMUTHS = 4, 7  # 30 and 60 degrees
 LIT = 0x80000000
+SETS, NEAR = 3, 12  # sets of directions, near facets
 ROWS = records.PATHS + ZENITHS * AZIMUTHS
 LOBE = 3 * 91  # rows of emissivity before those of the lobe of material 2
 
 
-def grid():
-    """Directions in the frame of a facet, and weights of their cells: equal steps of both angles."""
-    edge = np.linspace(0, np.pi / 2, RINGS + 1)
-    up = np.repeat((edge[1:] + edge[:-1]) / 2, AROUND)
-    turn = np.tile((np.arange(AROUND) + 0.5) * 2 * np.pi / AROUND, RINGS)
-    weight = np.repeat(np.sin(edge[1:]) ** 2 - np.sin(edge[:-1]) ** 2, AROUND) / AROUND
-    return np.stack([np.cos(up) * np.cos(turn), np.cos(up) * np.sin(turn), np.sin(up), weight], 1)
+def grid(random):
+    """Sets of directions in the frame of a facet, and weights of their cells: rings of equal projected solid angles,
+    the lowest first."""
+    down, along = random.random((2, SETS, RINGS, AROUND))
+    level = np.sqrt((np.arange(RINGS)[::-1, None] + down) / RINGS)
+    turn = (np.arange(AROUND) + along) * 2 * np.pi / AROUND
+    cells = np.stack([level * np.cos(turn), level * np.sin(turn), np.sqrt(1 - level**2), 0 * level + 1 / CELLS], -1)
+    return cells.reshape(SETS, CELLS, 4)
 
 
 def dome():
@@ -42,10 +44,10 @@ def dome():
 class Case:
     """Random surfaces: of material 0 Lambertian, of 1 half a mirror, of 2 with a diffuse lobe."""
 
-    def __init__(self, seed, is_sky_uniform=False, sees_sky=0.6):
+    def __init__(self, seed, is_sky_uniform=False, sees_sky=0.6, has_near=False):
         random = np.random.default_rng(seed)
         self.wavelength_um = np.linspace(8, 12, SAMPLES)
-        self.cell, self.dome = grid(), dome()
+        self.cell, self.dome = grid(random), dome()
         self.facets = np.zeros(FACETS, records.FACET)
         self.facets["normal"] = unit(random.normal(size=(FACETS, 3)))
         self.facets["material"] = np.arange(FACETS) % 3
@@ -68,10 +70,15 @@ class Case:
         self.hit["normal"] = np.repeat(normal, 3, 0)[:COUNT]  # neighbours are alike
         self.hit["facet"] = random.integers(0, FACETS, COUNT)
         self.hit["facet"][::9] = records.NONE
-        self.met = random.integers(0, FACETS, (CELLS, COUNT)).astype(np.uint32)
-        self.met |= np.where(random.random((CELLS, COUNT)) < 0.5, LIT, 0).astype(np.uint32)
-        self.met[random.random((CELLS, COUNT)) < sees_sky] = records.NONE
+        self.met = random.integers(0, FACETS, (CELLS + NEAR, COUNT)).astype(np.uint32)
+        self.met |= np.where(random.random((CELLS + NEAR, COUNT)) < 0.5, LIT, 0).astype(np.uint32)
+        self.met[:CELLS][random.random((CELLS, COUNT)) < sees_sky] = records.NONE
         self.order = random.permutation(COUNT).astype(np.uint32)
+        self.direction_set = np.repeat(random.integers(0, SETS, COUNT), 5)[:COUNT].astype(np.uint32)
+        self.near = np.zeros((NEAR, 4, COUNT))
+        if has_near:
+            self.near[:, 0] = np.where(random.random((NEAR, COUNT)) < 0.4, random.uniform(-0.1, 0.1, (NEAR, COUNT)), 0)
+            self.near[:, 1:] = unit(random.normal(size=(NEAR, COUNT, 3))).transpose(0, 2, 1)
         self.mirrored = np.zeros(COUNT, records.BACKGROUND)
         self.mirrored["facet"] = records.NONE
 
@@ -93,7 +100,7 @@ def run(opencl, case, lanes):
     camera = np.zeros(1, records.CAMERA)
     camera["corner"], camera["across"], camera["down"] = (0, 0, -1), (0.01, 0, 0), (0, 0.01, 0)
     floats = {name: np.float32(getattr(case, name))
-              for name in ("cell", "dome", "temperature_k", "light", "spectra", "emissivity")}
+              for name in ("cell", "dome", "temperature_k", "light", "spectra", "emissivity", "near")}
     out = np.zeros((COUNT, 2, SAMPLES), np.float32)
     opencl.run("incident", (-(-COUNT // (64 if lanes == 16 else 1)),), options=f"-DRAY_LANES={lanes}",
                frame=case.frame(), camera=camera, params=params, dome=floats["dome"],
@@ -101,6 +108,7 @@ def run(opencl, case, lanes):
                         "facet_temperature_k": floats["temperature_k"]},
                light={"facet_background": case.background, "light": floats["light"]},
                hemisphere={"cell": floats["cell"], "hit": case.hit, "met": case.met, "order": case.order,
+                           "direction_set": case.direction_set, "near_rays": floats["near"],
                            "background": case.mirrored, "background_lit": np.zeros(COUNT, np.float32)},
                spectra={"rows": floats["spectra"], "emissivity": floats["emissivity"]}, out=out)
     return out
@@ -115,16 +123,18 @@ class Reference:
         normal = hit["normal"].astype(float)
         level = np.hypot(*normal[:2])
         up = np.array([-normal[2] * normal[0] / level, -normal[2] * normal[1] / level, level])
-        self.direction = case.cell[:, :3] @ np.stack([up, np.cross(up, normal), normal])
+        self.cell = case.cell[case.direction_set[place]]
+        self.direction = self.cell[:, :3] @ np.stack([up, np.cross(up, normal), normal])
         self.is_above = self.direction[:, 2] > 0
         self.material = case.materials[case.facets[hit["facet"]]["material"]]
-        fraction, weight = (1 + normal[2]) / 2, case.cell[:, 3]
+        fraction, weight = (1 + normal[2]) / 2, self.cell[:, 3]
         above = weight[self.is_above].sum()
         self.weight = weight * np.where(self.is_above, fraction / above, (1 - fraction) / max(1 - above, 1e-9))
         if not 1e-6 < above < 1 - 1e-6:
             self.weight = weight
-        self.word = case.met[:, place]
+        self.word = case.met[:CELLS, place]
         self.sees_sky = self.word == records.NONE
+        self.near, self.near_word = case.near[:, :, place], case.met[CELLS:, place]
 
     def lobe(self):
         """What each cell counts at each sample."""
@@ -135,10 +145,13 @@ class Reference:
         return of_cell / (self.weight @ of_cell)
 
     def facet(self, c):
-        case, word = self.case, self.word[c]
+        return self.seen(self.word[c], self.direction[c])
+
+    def seen(self, word, direction):
+        case = self.case
         facet = int(word & ~np.uint32(LIT))
         own = case.facets[facet]
-        along = own["normal"].astype(float) @ self.direction[c]
+        along = own["normal"].astype(float) @ direction
         first = case.materials[own["material"]]["emissivity_first"]
         angle = np.degrees(np.arccos(min(abs(along), 1)))
         low = int(angle)
@@ -157,6 +170,23 @@ class Reference:
         diffuse = 1 - float(self.material["specular_share"])
         return diffuse * sum((self.weight[c] * self.lobe()[c] * self.facet(c)
                               for c in np.flatnonzero(~self.sees_sky)), np.zeros(SAMPLES))
+
+    def near_facets(self):
+        """What facets and sky bring to a Lambertian surface once near facets count by what is lacking of them: the
+        rays beside them count as much less, on either side of the horizon."""
+        bare = self.word & ~np.uint32(LIT)
+        is_near = np.isin(bare, (self.near_word & ~np.uint32(LIT))[self.near[:, 0] != 0])
+        facets, sky = np.zeros(SAMPLES), self.uniform_sky()
+        for side, those in [(self.is_above, self.near[:, 3] > 0), (~self.is_above, self.near[:, 3] <= 0)]:
+            rest, lack = self.weight[side & ~is_near].sum(), self.near[those, 0].sum()
+            part = min(max(rest / lack, 0), 1) if lack > rest else 1
+            for k in np.flatnonzero(those):
+                facets += part * self.near[k, 0] * self.seen(self.near_word[k], self.near[k, 1:])
+            sky -= (part * lack * self.weight[side & self.sees_sky].sum() / rest * self.case.spectra[records.PATHS])
+            for c in np.flatnonzero(side & ~self.sees_sky):
+                scale = 1 if is_near[c] else 1 - part * lack / rest
+                facets += scale * self.weight[c] * self.facet(c)
+        return facets, sky
 
     def uniform_sky(self):
         """Of a Lambertian surface."""
@@ -184,6 +214,20 @@ def test_facets_bring_what_each_ray_s_facet_sends(opencl, lanes, sees_sky):
         expected = Reference(case, place).facets()
         # float32 sums of up to 72 rays, and angles whose last digits count near 0 degrees
         assert out[case.order[place], 1] == pytest.approx(expected, rel=2e-5)
+
+
+@LANES
+def test_near_facets_bring_what_their_rays_lack(opencl, lanes):
+    case = Case(5, is_sky_uniform=True, has_near=True)
+
+    out = run(opencl, case, lanes)
+
+    for place in diffuse_places(case):
+        pixel = Reference(case, place)
+        if pixel.material["lobe_first"] == records.NONE:
+            facets, sky = pixel.near_facets()
+            assert out[case.order[place], 1] == pytest.approx(facets, rel=3e-5)
+            assert out[case.order[place], 0] == pytest.approx(sky, rel=1e-5)
 
 
 @LANES
