@@ -109,7 +109,8 @@ static status allocate(render_tile_memory *t, const render_shared *r)
     TRY(device_allocate(r->dev, &t->points.direction_set, n, NULL));
     TRY(device_allocate(r->dev, &t->points.met,
                         n * (hemisphere_grid_cell_count(r->grid) + NEAR_FACETS), NULL));
-    if (has_incident(r)) TRY(device_allocate(r->dev, &t->points.near_rays, n * 4 * NEAR_FACETS, NULL));
+    if (has_incident(r))
+        TRY(device_allocate(r->dev, &t->points.near_rays, n * 4 * NEAR_FACETS, NULL));
     TRY(device_allocate(r->dev, &t->pixels.sunlit, n, NULL));
     TRY(device_allocate(r->dev, &t->history, n * temperature_history_words(r->temperatures), NULL));
     TRY(device_allocate(r->dev, &t->pixels.temperature_k, n, NULL));

@@ -130,9 +130,8 @@ kernel void incident_media(const radiometry_record frame, const camera_record ca
     const material_record material = surfaces.materials[surfaces.facets[at.facet].material];
     const float specular = material.specular_share;
     const uint cell_rays = specular < 1.0f ? params.cell_count : 0u;
-    const incident_cells cells = {cell_rays,          params.ring_count,  rays.cell,
-                                  rays.met,           rays.direction_set, rays.near_rays,
-                                  params.ground_facet};
+    const incident_cells cells = {cell_rays, params.ring_count,  rays.cell,
+                                  rays.met,  rays.direction_set, rays.near_rays};
     body_lobe lobe = {.view = look_around(at.normal, cells, place, frame.pixel_count),
                       .ring_count = params.ring_count};
     global float *from_sky = out + (size_t)pixel * 2u * frame.sample_count;

@@ -60,7 +60,7 @@ static inline incident_rest incident_rest_of(const incident_near *near, const in
         const lanes_mask counts =
             (side ? is_above : !is_above) & !incident_is_near(near, view.word);
         rest.all += counts ? view.weight : none;
-        rest.sky += counts & (view.word == RECORD_NONE) ? view.weight : none;
+        rest.sky += (counts & (view.word == RECORD_NONE)) ? view.weight : none;
     }
     for (uint k = 0; k < near->rows; k++) {
         const lanes_mask is_above = near->direction[k][2] > 0.0f;
