@@ -35,7 +35,7 @@ void read_format(mesh_soup &soup, const std::string &path, std::string &text)
         mesh_off_read(soup, path, text);
     else
         throw failure(path + ": extension \"" + extension +
-                      "\", expected .obj, .ply, .stl or .off");
+                      "\", expected .gdb, .obj, .ply, .stl or .off");
 }
 
 /* Gives every face the same name where the format has none of this kind. */

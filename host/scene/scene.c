@@ -146,6 +146,21 @@ static void check_weather(scene_reader *reader)
                    scene_thermal_name(s->thermal));
 }
 
+/* Temperatures of an image follow from weather up to its time. */
+static void check_history(scene_reader *reader)
+{
+    const scene *s = reader->s;
+    const weather *w = s->history;
+
+    if (!w || w->count == 0 || s->thermal == SCENE_THERMAL_FIXED) return;
+    const double time_h = (s->place.time_s - weather_origin_s(w, &s->place)) / 3600.0;
+    const double last_h = w->record[w->count - 1].time_h;
+    if (time_h > last_h + 1e-6)
+        scene_fail(reader, toml_node_get(reader->root, "weather"),
+                   "weather.history: ends %.4g h before the image, expected weather up to its time",
+                   time_h - last_h);
+}
+
 /* A band that was read must lie within the atmosphere. */
 static void check_bands(scene_reader *reader)
 {
@@ -183,6 +198,7 @@ static void read_parts(scene_reader *reader)
     scene_read_geometry(reader);
     scene_read_materials(reader, ground_material);
     check_weather(reader);
+    check_history(reader);
     scene_limits_check(reader);
     if (!s->shape || reader->failure_count > 0) return;
     check_facets(reader);

@@ -225,14 +225,17 @@ static bool was_asked(const scene_table *t, const char *key)
     return false;
 }
 
-/* The asked key that is this one and a unit, as latitude_deg is for latitude. */
+/* The shortest asked key that is this one and a unit, as latitude_deg is for latitude. */
 static const char *with_unit(const scene_table *t, const char *key)
 {
     const size_t length = strlen(key);
+    const char *best = NULL;
 
     for (int i = 0; i < t->asked_count; i++)
-        if (!strncmp(t->asked[i], key, length) && t->asked[i][length] == '_') return t->asked[i];
-    return NULL;
+        if (!strncmp(t->asked[i], key, length) && t->asked[i][length] == '_' &&
+            (!best || strlen(t->asked[i]) < strlen(best)))
+            best = t->asked[i];
+    return best;
 }
 
 static void fail_unknown(const scene_table *t, const toml_node *child)

@@ -198,3 +198,23 @@ def test_a_row_that_is_cut_and_one_with_decimal_commas_are_refused(program, tmp_
     assert "day.csv:7: " in refused(program, tmp_path, table(rows)) and "7 fields, one for each name, not 4" in refused(program, tmp_path, table(rows))
     rows[5] = [*rows_of()[5][:1], "15,2", *rows_of()[5][2:]]
     assert "7 fields, one for each name, not 8" in refused(program, tmp_path, table(rows))
+
+
+def test_weather_that_ends_before_the_image_is_an_error_of_the_scene(program, tmp_path):
+    (tmp_path / "short.csv").write_text(table(rows_of(hours=12)))
+
+    done = program.run("check", program.write_scene(
+        tmp_path, weather={"history": "short.csv"}, render={"thermal": "therm"},
+        material=[{"name": "wall", "emissivity": 1.0, "solar_absorptance": 0.5, "density_kg_m3": 2000.0,
+                   "specific_heat_j_kg_k": 900.0, "conductivity_w_m_k": 1.0, "exposed_area": -0.5}],
+        geometry=[{"file": "plane.obj", "thickness_m": 0.1}]))
+
+    assert done.returncode == 1
+    # the image is at 13:20, the last record at 11
+    assert "weather.history: ends 2.333 h before the image, expected weather up to its time" in done.stderr
+
+
+def test_a_key_without_its_unit_names_the_one_that_has_it(program, tmp_path):
+    done = program.run("check", program.write_scene(tmp_path, weather={"wind": 3.0}))
+
+    assert "weather.wind: the unit is missing, expected the key wind_m_s" in done.stderr

@@ -560,7 +560,7 @@ static void what_is_no_mesh_file_is_refused(void **state)
     mesh_file *mesh = NULL;
     (void)state;
 
-    assert_refused("a.fbx", "", ": extension \".fbx\", expected .obj, .ply, .stl or .off");
+    assert_refused("a.fbx", "", ": extension \".fbx\", expected .gdb, .obj, .ply, .stl or .off");
     assert_refused("empty.obj", "# nothing\n", ": no faces");
     assert_int_not_equal(mesh_file_read(&mesh, folder, message, sizeof message), 0);
     assert_non_null(strstr(message, "a folder, expected a file"));
