@@ -1,10 +1,24 @@
 #include "kernels/hemisphere/hemisphere.h"
 
-#include "kernels/hemisphere/hemisphere_lanes.h"
+#include "kernels/hemisphere/near_sky.h"
+
+/* The shares of the sky with what is known of near facets. */
+static lanes open_beside(lanes open, const hemisphere_tables *rays, const uint cell_count,
+                         const uint first, const uint count)
+{
+    const lanes none = (lanes)0.0f, one = (lanes)1.0f;
+    lanes normal[3];
+
+    if (!rays->near_rays) return open;
+    for (uint i = 0; i < LANES_WIDTH; i++)
+        for (int k = 0; k < 3; k++)
+            LANES_SET(normal[k], i, rays->hit[lanes_place(first, i, count)].normal[k]);
+    return clamp(open - near_sky_hidden(rays, normal, cell_count, first, count), none, one);
+}
 
 /* Counts what the rays of points first .. first + LANES_WIDTH - 1 met.
  *   used      a bit per lane that is a point
- * Returns the shares that met nothing. */
+ * Returns the shares of the sky. */
 static inline lanes count_rays(const surface_tables *surfaces, const hemisphere_tables *rays,
                                const uint cell_count, const uint first, const uint count,
                                const uint used, hemisphere_count all[LANES_WIDTH])
@@ -24,7 +38,7 @@ static inline lanes count_rays(const surface_tables *surfaces, const hemisphere_
                                  surfaces->facet_temperature_k[seen]);
         }
     }
-    return open[0] / (open[0] + blocked[0]);
+    return open_beside(open[0] / (open[0] + blocked[0]), rays, cell_count, first, count);
 }
 
 /* The entry of the commonest material; of equally common ones that of the lowest number. */
@@ -59,15 +73,15 @@ SHARED_BODY kernel void background(const uint count, const uint cell_count, TABL
     const lanes open = count_rays(&surfaces, &rays, cell_count, first, count, used, all);
     ray_packet_clear(&packet, &tree.world);
     for (uint i = 0; i < lane_count; i++) {
-        background_record back = {
-            .shape_factor = 1.0f, .material = RECORD_NONE, .facet = RECORD_NONE};
+        background_record back = {.shape_factor = ((const float *)&open)[i],
+                                  .material = RECORD_NONE,
+                                  .facet = RECORD_NONE};
         if (all[i].met_count > 0) {
             const uint best = commonest(&all[i], surfaces.materials);
             const hit_record at = rays.hit[first + i];
             const uint set = rays.direction_set ? rays.direction_set[first + i] : 0u;
             const ray r = hemisphere_ray(&at, rays.cell + 4u * cell_count * set, all[i].first[best],
                                          &tree.world);
-            back.shape_factor = ((const float *)&open)[i];
             back.mean_temperature_k = all[i].base_k + all[i].excess_k / (float)all[i].met_count;
             back.material = all[i].material[best];
             back.met_count = all[i].met_count;
