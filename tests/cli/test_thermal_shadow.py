@@ -134,11 +134,15 @@ def test_backgrounds_have_their_own_shade_in_exact_mode_alone(program, tmp_path)
         program.render(tmp_path, "--size", "40x40", **scene(camera=camera, render={
             "thermal": "therm", "mode": mode})).planes["background_temperature_c"]
         for mode in ("thesis", "exact"))
-    seen = (thesis > -9000) & (exact > -9000)
 
-    difference = (exact - thesis)[seen]
+    def two_warmest_walls(picture):
+        """The modes' rays are others and a pixel has the mean of what they met; most met one wall alone."""
+        values, counts = np.unique(picture[picture > 40], return_counts=True)
+        return np.sort(values[np.argsort(counts)[-2:]])
+
+    difference = two_warmest_walls(exact) - two_warmest_walls(thesis)
     # nodes, start and air differ between the modes too, by some thousandths at two in the afternoon
-    assert difference.max() < 0.01 and difference.min() < -0.05
+    assert difference[0] < -0.05 and abs(difference[1]) < 0.01
 
 
 @pytest.mark.parametrize("model", ["therm", "layered"])
