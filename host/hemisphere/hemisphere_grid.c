@@ -91,8 +91,10 @@ static void fill_cells(float (*cell)[4], shape_factor_reading reading, uint32_t 
         }
 }
 
-status hemisphere_grid_open(hemisphere_grid **out, device *dev, shape_factor_reading reading,
-                            double zenith_step_deg, double azimuth_step_deg)
+/* Opens a grid that fill_cells or, with sets, hemisphere_strata_fill fills.
+ *   reading   of a grid without strata; NULL: strata */
+static status open_filled(hemisphere_grid **out, device *dev, const shape_factor_reading *reading,
+                          const double step_deg[2], uint32_t set_count, uint32_t seed)
 {
     status rc = STATUS_OK;
     hemisphere_grid *grid = calloc(1, sizeof *grid);
@@ -100,14 +102,18 @@ status hemisphere_grid_open(hemisphere_grid **out, device *dev, shape_factor_rea
     uint32_t rings = 0, azimuths = 0;
 
     NEED(grid, STATUS_MEMORY, "no memory for a hemisphere");
-    TRY(count_cells(&rings, &azimuths, zenith_step_deg, azimuth_step_deg));
-    grid->set_count = 1;
+    TRY(count_cells(&rings, &azimuths, step_deg[0], step_deg[1]));
+    grid->set_count = set_count > 0 ? set_count : 1;
     grid->cell_count = rings * azimuths;
     grid->azimuths = azimuths;
-    cell = malloc(grid->cell_count * sizeof *cell);
-    NEED(cell, STATUS_MEMORY, "no memory for a hemisphere of %u cells", grid->cell_count);
-    fill_cells(cell, reading, rings, azimuths);
-    TRY(device_allocate(dev, &grid->cell, 4 * grid->cell_count, cell[0]));
+    cell = malloc((size_t)grid->set_count * grid->cell_count * sizeof *cell);
+    NEED(cell, STATUS_MEMORY, "no memory for %u hemispheres of %u cells", grid->set_count,
+         grid->cell_count);
+    if (reading)
+        fill_cells(cell, *reading, rings, azimuths);
+    else
+        hemisphere_strata_fill(cell, rings, azimuths, set_count, seed);
+    TRY(device_allocate(dev, &grid->cell, 4 * (size_t)grid->set_count * grid->cell_count, cell[0]));
     *out = grid;
     grid = NULL;
 out:
@@ -116,30 +122,17 @@ out:
     return rc;
 }
 
+status hemisphere_grid_open(hemisphere_grid **out, device *dev, shape_factor_reading reading,
+                            double zenith_step_deg, double azimuth_step_deg)
+{
+    return open_filled(out, dev, &reading, (double[2]){zenith_step_deg, azimuth_step_deg}, 0, 0);
+}
+
 status hemisphere_grid_open_strata(hemisphere_grid **out, device *dev, double zenith_step_deg,
                                    double azimuth_step_deg, uint32_t set_count, uint32_t seed)
 {
-    status rc = STATUS_OK;
-    hemisphere_grid *grid = calloc(1, sizeof *grid);
-    float(*cell)[4] = NULL;
-    uint32_t rings = 0, azimuths = 0;
-
-    NEED(grid, STATUS_MEMORY, "no memory for a hemisphere");
-    TRY(count_cells(&rings, &azimuths, zenith_step_deg, azimuth_step_deg));
-    grid->set_count = set_count > 0 ? set_count : 1;
-    grid->cell_count = rings * azimuths;
-    grid->azimuths = azimuths;
-    cell = malloc((size_t)grid->set_count * grid->cell_count * sizeof *cell);
-    NEED(cell, STATUS_MEMORY, "no memory for %u hemispheres of %u cells", grid->set_count,
-         grid->cell_count);
-    hemisphere_strata_fill(cell, rings, azimuths, set_count, seed);
-    TRY(device_allocate(dev, &grid->cell, 4 * (size_t)grid->set_count * grid->cell_count, cell[0]));
-    *out = grid;
-    grid = NULL;
-out:
-    free(cell);
-    hemisphere_grid_free(grid);
-    return rc;
+    return open_filled(out, dev, NULL, (double[2]){zenith_step_deg, azimuth_step_deg}, set_count,
+                       seed);
 }
 
 uint32_t hemisphere_grid_part_of(uint32_t cell, uint32_t parts)

@@ -1,19 +1,30 @@
 #include "kernels/hemisphere/hemisphere.h"
 
-#include "kernels/hemisphere/near_sky.h"
+#include "kernels/hemisphere/near_rest.h"
 
-/* The shares of the sky with what is known of near facets. */
+/* The shares of the sky with what is known of near facets: the counterpart of incident_near.h.
+ *   used   a bit per lane that is a point */
 static lanes open_beside(lanes open, const hemisphere_tables *rays, const uint cell_count,
-                         const uint first, const uint count)
+                         const uint first, const uint count, const uint used)
 {
-    const lanes none = (lanes)0.0f, one = (lanes)1.0f;
-    lanes normal[3];
+    global const uint *met = rays->met + (size_t)cell_count * count;
+    const near_rays near = near_rays_read(rays->near_rays, met, first, count, used);
+    lanes normal[3], direction[3];
 
-    if (!rays->near_rays) return open;
+    if (near.rows == 0) return open;
     for (uint i = 0; i < LANES_WIDTH; i++)
         for (int k = 0; k < 3; k++)
             LANES_SET(normal[k], i, rays->hit[lanes_place(first, i, count)].normal[k]);
-    return clamp(open - near_sky_hidden(rays, normal, cell_count, first, count), none, one);
+    const hemisphere_lanes axes = hemisphere_lanes_of(normal);
+    const hemisphere_sets sets = hemisphere_sets_of(rays->direction_set, cell_count, first, count);
+    near_rest rest = near_rest_of(&near);
+    for (uint c = 0; c < cell_count; c++) {
+        hemisphere_cell_directions(&axes, &sets, rays->cell + 4 * c, direction);
+        near_rest_add(&rest, &near, lanes_load_bits(rays->met + (size_t)c * count, first, count),
+                      direction[2], (lanes)rays->cell[4 * c + 3]);
+    }
+    for (uint side = 0; side < 2; side++) open -= near_rest_taken(&rest, side) * rest.sky[side];
+    return clamp(open, 0.0f, 1.0f);
 }
 
 /* Counts what the rays of points first .. first + LANES_WIDTH - 1 met.
@@ -38,7 +49,7 @@ static inline lanes count_rays(const surface_tables *surfaces, const hemisphere_
                                  surfaces->facet_temperature_k[seen]);
         }
     }
-    return open_beside(open[0] / (open[0] + blocked[0]), rays, cell_count, first, count);
+    return open_beside(open[0] / (open[0] + blocked[0]), rays, cell_count, first, count, used);
 }
 
 /* The entry of the commonest material; of equally common ones that of the lowest number. */

@@ -39,9 +39,9 @@ INLINE void write_diffuse(sky_column *column, const incident_group *g, const inc
         else
             incident_add_faces(g, t, part, out + t->frame.sample_count);
     }
-    if (g->near.rows == 0u) return;
+    if (g->near.rays.rows == 0u) return;
     const incident_part near = {params.cell_count,
-                                params.cell_count + params.ring_count * g->near.rows};
+                                params.cell_count + params.ring_count * g->near.rays.rows};
     incident_add_faces(g, t, near, out + t->frame.sample_count);
     incident_near_sky(g, t, out);
     incident_near_even(g, t, out);

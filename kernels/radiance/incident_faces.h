@@ -175,7 +175,7 @@ static inline void incident_add_faces(const incident_group *g, const incident_ta
     for (uint c = part.first; c < part.end; c++) {
         incident_see_faces(&faces, &rays, g, t, c);
         incident_end_cell(&rays, c < t->cells.count ? ring_of_cell(t->cells, c)
-                                                    : (c - t->cells.count) / g->near.rows);
+                                                    : (c - t->cells.count) / g->near.rays.rows);
     }
     for (; block + SIDE <= blocks; block += SIDE)
         incident_add_blocks(&faces, &rays, g, t, light, block, SIDE, out);

@@ -3,6 +3,7 @@
 #ifndef INCIDENT_GROUP_H
 #define INCIDENT_GROUP_H
 
+#include "kernels/hemisphere/near_rest.h"
 #include "kernels/radiance/incident_hemisphere.h"
 
 /* Cells of the hemisphere that are looked at together, and blocks of samples that are summed side by side
@@ -28,9 +29,8 @@ typedef struct incident_part {
 
 /* Facets near the lanes that their rays brought too little of, near_facets.cl; incident_near.h. */
 typedef struct incident_near {
-    uint rows; /* facets a lane, at most */
-    lanes weight[NEAR_FACETS], direction[NEAR_FACETS][3];
-    lanes_bits word[NEAR_FACETS], ring[NEAR_FACETS]; /* ring: of the lobes, that each lies in */
+    near_rays rays;
+    lanes_bits ring[NEAR_FACETS]; /* of the lobes, that each lies in */
     lanes rest[2];            /* what rays beside near facets count, below and above the horizon, */
     lanes sky[2];             /* and what of them is sky */
     lanes change[LOBE_RINGS]; /* of the weights of diffuse lobes' rings */

@@ -7,88 +7,37 @@
 
 #include "kernels/radiance/incident_rays.h"
 
-/* A row of floats as the lanes have it. */
-static inline lanes incident_near_at(const incident_group *g, const incident_tables *t, uint row)
+/* Finds which rings of the lobes near facets lie in. */
+static inline void incident_near_rings(incident_near *near, const incident_group *g,
+                                       const incident_tables *t)
 {
-    const uint count = t->frame.pixel_count;
-    global const float *at = t->cells.near + (size_t)row * count;
-
-    return as_lanes(lanes_load_bits((global const uint *)at, g->first, count));
-}
-
-/* What rays brought beside near facets on one side of the horizon: all of it, what of that is sky, and what is
- * lacking of near facets. */
-typedef struct incident_rest {
-    lanes all, sky, lacks;
-} incident_rest;
-
-/* Reads the near facets of the lanes. */
-static inline void incident_near_read(incident_near *near, const incident_group *g,
-                                      const incident_tables *t)
-{
-    const uint count = t->frame.pixel_count;
     const lanes *normal = g->view.axes.normal, rings = (lanes)(float)t->cells.ring_count;
 
-    near->rows = 0u;
-    if (!t->cells.near) return;
-    for (uint k = 0; k < NEAR_FACETS; k++) {
-        global const uint *met = t->cells.met + (size_t)(t->cells.count + k) * count;
-        const lanes weight = incident_near_at(g, t, 4u * k);
-        if (!(g->diffuse & lanes_bits_of(weight != 0.0f))) continue;
-        near->weight[near->rows] = weight;
-        near->word[near->rows] = lanes_load_bits(met, g->first, count);
-        for (uint axis = 0; axis < 3u; axis++)
-            near->direction[near->rows][axis] = incident_near_at(g, t, 4u * k + axis + 1u);
-        const lanes *to = near->direction[near->rows];
+    for (uint k = 0; k < near->rays.rows; k++) {
+        const lanes *to = near->rays.direction[k];
         const lanes cosine = normal[0] * to[0] + normal[1] * to[1] + normal[2] * to[2];
-        const lanes ring = clamp(rings * cosine * cosine, (lanes)0.0f, rings - 0.5f);
-        near->ring[near->rows++] = lanes_bits_from(ring);
+        near->ring[k] = lanes_bits_from(clamp(rings * cosine * cosine, (lanes)0.0f, rings - 0.5f));
     }
 }
 
-/* What the rays brought beside near facets.
- *   side   0 below the horizon, 1 above */
-static inline incident_rest incident_rest_of(const incident_near *near, const incident_group *g,
-                                             const incident_tables *t, uint side)
-{
-    const lanes none = (lanes)0.0f;
-    incident_rest rest = {none, none, none};
-
-    for (uint c = 0; c < t->cells.count; c++) {
-        const incident_view view = incident_look_plain(g, t, c);
-        const lanes_mask is_above = view.direction[2] > 0.0f;
-        const lanes_mask counts =
-            (side ? is_above : !is_above) & !incident_is_near(near, view.word);
-        rest.all += counts ? view.weight : none;
-        rest.sky += (counts & (view.word == RECORD_NONE)) ? view.weight : none;
-    }
-    for (uint k = 0; k < near->rows; k++) {
-        const lanes_mask is_above = near->direction[k][2] > 0.0f;
-        const lanes_mask counts = (side ? is_above : !is_above) & (near->weight[k] != 0.0f);
-        rest.lacks += counts ? near->weight[k] : none;
-    }
-    return rest;
-}
-
-/* Adds what near facets change of the weights of the lobes' rings.
- *   side   0 below the horizon, 1 above */
+/* Finds what near facets change of the weights of the lobes' rings. */
 static inline void incident_near_weigh(incident_near *near, const incident_group *g,
-                                       const incident_tables *t, uint side)
+                                       const incident_tables *t)
 {
     const lanes none = (lanes)0.0f, one = (lanes)1.0f;
 
+    for (uint r = 0; r < t->cells.ring_count; r++) near->change[r] = none;
     for (uint c = 0; c < t->cells.count; c++) {
         const incident_view view = incident_look_plain(g, t, c);
-        const lanes_mask is_above = view.direction[2] > 0.0f;
-        const lanes_mask counts = (side ? is_above : !is_above) & (view.word != RECORD_NONE) &
-                                  !incident_is_near(near, view.word);
-        near->change[ring_of_cell(t->cells, c)] +=
-            counts ? view.weight * (near->rest[side] - one) : none;
+        const lanes rest = view.direction[2] > none ? near->rest[1] : near->rest[0];
+        const lanes_mask counts =
+            (view.word != RECORD_NONE) & !near_rays_met(&near->rays, view.word);
+        near->change[ring_of_cell(t->cells, c)] += counts ? view.weight * (rest - one) : none;
     }
-    for (uint k = 0; k < near->rows; k++) {
-        const lanes_mask is_above = near->direction[k][2] > 0.0f;
-        const lanes_mask counts = (side ? is_above : !is_above) & (near->weight[k] != 0.0f);
-        const lanes weight = counts ? near->weight[k] * (one - near->sky[side]) : none;
+    for (uint k = 0; k < near->rays.rows; k++) {
+        const lanes sky = near->rays.direction[k][2] > none ? near->sky[1] : near->sky[0];
+        const lanes own = near->rays.weight[k];
+        const lanes weight = own != none ? own * (one - sky) : none;
         for (uint r = 0; r < t->cells.ring_count; r++)
             near->change[r] += near->ring[k] == r ? weight : none;
     }
@@ -98,24 +47,27 @@ static inline void incident_near_weigh(incident_near *near, const incident_group
 static inline void incident_near_find(incident_near *near, const incident_group *g,
                                       const incident_tables *t)
 {
+    const uint count = t->frame.pixel_count;
+    global const uint *met = t->cells.met + (size_t)t->cells.count * count;
     const lanes none = (lanes)0.0f, one = (lanes)1.0f;
+    lanes part[2];
 
-    incident_near_read(near, g, t);
-    for (uint r = 0; r < t->cells.ring_count; r++) near->change[r] = none;
-    for (uint side = 0; side < 2u && near->rows > 0u; side++) {
-        const incident_rest rest = incident_rest_of(near, g, t, side);
-        const lanes_mask is_little = (rest.all <= 1e-6f) | (rest.lacks > rest.all);
-        const lanes taken = rest.lacks > none ? fmin(rest.all / rest.lacks, one) : none;
-        const lanes part = is_little ? taken : one;
-        const lanes all = rest.all > 1e-6f ? rest.all : one;
-        near->rest[side] = one - part * rest.lacks / all;
-        near->sky[side] = rest.sky / all;
-        for (uint k = 0; k < near->rows; k++) {
-            const lanes_mask is_above = near->direction[k][2] > 0.0f;
-            near->weight[k] *= (side ? is_above : !is_above) ? part : one;
-        }
-        incident_near_weigh(near, g, t, side);
+    near->rays = near_rays_read(t->cells.near, met, g->first, count, g->diffuse);
+    if (near->rays.rows == 0u) return;
+    near_rest rest = near_rest_of(&near->rays);
+    for (uint c = 0; c < t->cells.count; c++) {
+        const incident_view view = incident_look_plain(g, t, c);
+        near_rest_add(&rest, &near->rays, view.word, view.direction[2], view.weight);
     }
+    for (uint side = 0; side < 2u; side++) {
+        part[side] = near_rest_part(&rest, side);
+        near->rest[side] = one - near_rest_taken(&rest, side);
+        near->sky[side] = rest.sky[side] / (rest.all[side] > 1e-6f ? rest.all[side] : one);
+    }
+    for (uint k = 0; k < near->rays.rows; k++)
+        near->rays.weight[k] *= near->rays.direction[k][2] > none ? part[1] : part[0];
+    incident_near_rings(near, g, t);
+    incident_near_weigh(near, g, t);
 }
 
 /* What a ring of a lane's hemisphere counts. */
@@ -139,15 +91,15 @@ static inline void incident_near_sky(const incident_group *g, const incident_tab
     global const float *sky =
         t->spectra.rows + (size_t)(SPECTRA_PATHS + 2u * t->frame.path_count) * row;
 
-    for (uint k = 0; k < near->rows; k++) {
-        const lanes_mask is_above = near->direction[k][2] > 0.0f;
-        const lanes weight = near->weight[k] * (is_above ? near->sky[1] : near->sky[0]);
-        uint bits = g->diffuse & lanes_bits_of((near->weight[k] != 0.0f) & (weight != 0.0f));
+    for (uint k = 0; k < near->rays.rows; k++) {
+        const lanes_mask is_above = near->rays.direction[k][2] > 0.0f;
+        const lanes weight = near->rays.weight[k] * (is_above ? near->sky[1] : near->sky[0]);
+        uint bits = g->diffuse & lanes_bits_of((near->rays.weight[k] != 0.0f) & (weight != 0.0f));
         for (; bits; bits &= bits - 1u) {
             const uint i = incident_first_of(bits);
-            const sky_lookup at =
-                sky_find(t->frame, lane_of(&near->direction[k][0], i),
-                         lane_of(&near->direction[k][1], i), lane_of(&near->direction[k][2], i));
+            const sky_lookup at = sky_find(t->frame, lane_of(&near->rays.direction[k][0], i),
+                                           lane_of(&near->rays.direction[k][1], i),
+                                           lane_of(&near->rays.direction[k][2], i));
             const float share = (g->specular[i] - 1.0f) * lane_of(&weight, i);
             global float *own = incident_rows_of(g, i, t, out);
             const uint ring = ((const uint *)&near->ring[k])[i];

@@ -54,16 +54,6 @@ static inline incident_view incident_look_plain(const incident_group *g, const i
     return view;
 }
 
-/* Which of the lanes met a near facet of theirs. */
-static inline lanes_mask incident_is_near(const incident_near *near, lanes_bits word)
-{
-    lanes_mask is_near = (lanes_mask)0;
-
-    for (uint k = 0; k < near->rows; k++)
-        is_near |= (near->weight[k] != 0.0f) & (((near->word[k] ^ word) & ~HEMISPHERE_LIT) == 0u);
-    return is_near;
-}
-
 /* A cell, or behind the last of them a near facet: all of one ring of the lobes, then those of the next. */
 static inline incident_view incident_look(const incident_group *g, const incident_tables *t, uint c)
 {
@@ -72,17 +62,18 @@ static inline incident_view incident_look(const incident_group *g, const inciden
 
     if (c < t->cells.count) {
         view = incident_look_plain(g, t, c);
-        if (near->rows > 0u && view.met)
-            view.weight *= incident_is_near(near, view.word) ? (lanes)1.0f
-                           : view.direction[2] > 0.0f        ? near->rest[1]
-                                                             : near->rest[0];
+        if (near->rays.rows > 0u && view.met)
+            view.weight *= near_rays_met(&near->rays, view.word) ? (lanes)1.0f
+                           : view.direction[2] > 0.0f            ? near->rest[1]
+                                                                 : near->rest[0];
         return view;
     }
-    const uint k = (c - t->cells.count) % near->rows, ring = (c - t->cells.count) / near->rows;
-    view.word = near->word[k];
-    view.weight = near->weight[k];
+    const uint k = (c - t->cells.count) % near->rays.rows,
+               ring = (c - t->cells.count) / near->rays.rows;
+    view.word = near->rays.word[k];
+    view.weight = near->rays.weight[k];
     view.met = g->diffuse & lanes_bits_of((view.weight != 0.0f) & (near->ring[k] == ring));
-    for (uint axis = 0; axis < 3u; axis++) view.direction[axis] = near->direction[k][axis];
+    for (uint axis = 0; axis < 3u; axis++) view.direction[axis] = near->rays.direction[k][axis];
     return view;
 }
 
